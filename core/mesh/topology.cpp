@@ -1,0 +1,84 @@
+#include "core/mesh/topology.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+
+namespace flexcast {
+namespace {
+
+// The face opposite to each vertex, outward for positive volumes.
+constexpr std::array<std::array<int, 3>, 4> local_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<std::array<int, 2>, 6> local_edges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+struct Face {
+  Triangle sorted;     // what makes two faces the same
+  std::size_t number;  // 4 * element + face of the element
+
+  friend bool operator<(const Face& a, const Face& b) {
+    return std::tie(a.sorted, a.number) < std::tie(b.sorted, b.number);
+  }
+};
+
+Triangle make_face(const Tetrahedron& tetrahedron, std::size_t face) {
+  const auto& [a, b, c] = local_faces[face];
+  return {tetrahedron[a], tetrahedron[b], tetrahedron[c]};
+}
+
+std::vector<Face> make_sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<Face> faces;
+  faces.reserve(4 * tetrahedra.size());
+  for (std::size_t element = 0; element < tetrahedra.size(); ++element) {
+    for (std::size_t face = 0; face < 4; ++face) {
+      Triangle sorted = make_face(tetrahedra[element], face);
+      std::sort(sorted.begin(), sorted.end());
+      faces.push_back({sorted, 4 * element + face});
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+}  // namespace
+
+std::vector<Triangle> make_boundary_triangles(const std::vector<Tetrahedron>& tetrahedra) {
+  const std::vector<Face> faces = make_sorted_faces(tetrahedra);
+  std::vector<std::size_t> outer;
+  for (std::size_t first = 0; first < faces.size();) {
+    std::size_t end = first + 1;
+    while (end < faces.size() && faces[end].sorted == faces[first].sorted) ++end;
+    if (end == first + 1) outer.push_back(faces[first].number);
+    first = end;
+  }
+  std::sort(outer.begin(), outer.end());
+
+  std::vector<Triangle> triangles;
+  triangles.reserve(outer.size());
+  for (std::size_t number : outer) triangles.push_back(make_face(tetrahedra[number / 4], number % 4));
+  return triangles;
+}
+
+std::vector<Spring> make_edges(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<Spring> edges;
+  edges.reserve(6 * tetrahedra.size());
+  for (const Tetrahedron& tetrahedron : tetrahedra) {
+    for (const auto& [a, b] : local_edges) {
+      const auto [smaller, larger] = std::minmax(tetrahedron[a], tetrahedron[b]);
+      edges.push_back({smaller, larger});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+double calc_six_volumes(const std::vector<Vec3>& nodes, const Tetrahedron& tetrahedron) {
+  const Vec3& origin = nodes[tetrahedron[0]];
+  const Vec3 a = nodes[tetrahedron[1]] - origin;
+  const Vec3 b = nodes[tetrahedron[2]] - origin;
+  const Vec3 c = nodes[tetrahedron[3]] - origin;
+  return a.cross(b).dot(c);
+}
+
+}  // namespace flexcast
