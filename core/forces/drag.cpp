@@ -1,0 +1,49 @@
+#include "core/forces/drag.h"
+
+#include <algorithm>
+
+namespace flexcast {
+namespace {
+
+class Drag final : public Force {
+ public:
+  Drag(const Model& model, std::size_t body) : model_(model), body_(model.bodies[body]) {}
+
+  bool is_active() const override { return body_.mass_damping > 0.0 || body_.drag > 0.0; }
+  bool has_damping() const override { return true; }
+  void add_conservative(const VecX&, VecX&) const override {}
+
+  void add_damping(const VecX&, const VecX& v, VecX& f) const override {
+    for (std::int64_t i = body_.particles.first; i < body_.particles.end(); ++i) {
+      block3(f, i) -= coefficient(i) * block3(v, i);
+    }
+  }
+
+  void add_damping_matrix(const VecX&, double scale, BlockMatrix& A) const override {
+    for (std::int32_t i = body_.particles.first; i < body_.particles.end(); ++i) {
+      A.add(i, i, scale * coefficient(i) * Mat3::Identity());
+    }
+  }
+
+  std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
+  ModeBound calc_mode_bound() const override {
+    const auto masses = model_.masses.segment(body_.particles.first, body_.particles.count);
+    return {0.0, body_.mass_damping + body_.drag / masses.minCoeff(), body_.mass_damping + body_.drag / masses.maxCoeff()};
+  }
+
+ private:
+  double coefficient(std::int64_t particle) const {
+    return body_.mass_damping * model_.masses[particle] + body_.drag;
+  }
+
+  const Model& model_;
+  const Body& body_;
+};
+
+}  // namespace
+
+void make_drag(const Model& model, std::vector<std::unique_ptr<Force>>& forces) {
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) forces.push_back(std::make_unique<Drag>(model, body));
+}
+
+}  // namespace flexcast

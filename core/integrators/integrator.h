@@ -1,0 +1,39 @@
+// Integrator: takes the state one step further. Each scheme is one pair of files and one row of the table.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/forces/system.h"
+#include "core/solvers/settings.h"
+#include "core/state/state.h"
+#include "core/state/step_statistics.h"
+
+namespace flexcast {
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  // Positions and velocities after h seconds; step and time are the caller's. Held degrees of freedom keep their
+  // positions. The result depends on the state and the system only, to the last bit.
+  virtual void step(const System& system, double h, State& state, StepStatistics& statistics) = 0;
+  // The state or the system changed between two steps: what was kept from the last step is void.
+  virtual void invalidate() {}
+};
+
+struct IntegratorRow {
+  std::string_view name;  // as in scene files
+  std::string_view summary;
+  int order;      // of convergence in h
+  bool implicit;  // has solver settings; no stability limit
+  // s: the largest stable h for a mode x'' = -omega^2 x - damping_rate x' (1/s; damping_rate = 2 zeta omega), possibly
+  // infinite.
+  double (*calc_stable_step)(double omega, double damping_rate);
+  std::unique_ptr<Integrator> (*make)(const System& system, const SolverSettings& settings);
+};
+
+std::span<const IntegratorRow> integrators();
+const IntegratorRow* find_integrator(std::string_view name);
+
+}  // namespace flexcast

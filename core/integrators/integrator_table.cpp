@@ -1,0 +1,25 @@
+#include <array>
+
+#include "core/integrators/backward_euler.h"
+#include "core/integrators/forward_euler.h"
+#include "core/integrators/integrator.h"
+#include "core/integrators/rk4.h"
+#include "core/integrators/symplectic_euler.h"
+#include "core/integrators/velocity_verlet.h"
+
+namespace flexcast {
+
+std::span<const IntegratorRow> integrators() {
+  static const std::array table{forward_euler_row, symplectic_euler_row, velocity_verlet_row, rk4_row,
+                                backward_euler_row};
+  return table;
+}
+
+const IntegratorRow* find_integrator(std::string_view name) {
+  for (const IntegratorRow& row : integrators()) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace flexcast

@@ -1,0 +1,25 @@
+#include <array>
+
+#include "core/materials/corotational.h"
+#include "core/materials/law.h"
+#include "core/materials/linear.h"
+
+namespace flexcast {
+
+Lame calc_lame(double young, double poisson) {
+  return {young / (2.0 * (1.0 + poisson)), young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))};
+}
+
+std::span<const Law> laws() {
+  static const std::array table{linear_law, corotational_law};
+  return table;
+}
+
+const Law* find_law(std::string_view name) {
+  for (const Law& law : laws()) {
+    if (law.name == name) return &law;
+  }
+  return nullptr;
+}
+
+}  // namespace flexcast

@@ -1,0 +1,91 @@
+// Simulation: a scene that can be stepped, asked, changed and reset. Deterministic: the same model, settings and calls
+// give the same bits. It knows no clock, no network, no files.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/forces/model.h"
+#include "core/sim/parameters.h"
+#include "core/sim/report.h"
+#include "core/sim/settings.h"
+#include "core/state/state.h"
+
+namespace flexcast {
+
+class System;
+class Integrator;
+
+class Simulation {
+ public:
+  // `initial` has the starting positions and velocities; fixed degrees of freedom stay at their starting positions.
+  // The model's masses are computed here. Sizes must agree and values be finite: the scene reader sees to it.
+  Simulation(Model model, Settings settings, State initial, std::vector<Probe> probes);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // Takes one step. False: the step would not have been finite; the state is the one before it, failure() says why, and
+  // further calls do nothing until a parameter is set, or reset() is called.
+  bool step();
+
+  // Back to the initial state at step 0; parameters return to the scene's values unless kept.
+  void reset(bool keep_parameters = false);
+
+  const Model& model() const { return *model_; }
+  const Settings& settings() const { return settings_; }
+  const State& state() const { return state_; }
+  const std::vector<Probe>& probes() const { return probes_; }
+  const std::optional<Failure>& failure() const { return failure_; }
+  const StepStatistics& statistics() const { return statistics_; }  // of the last step
+
+  // Energies, momenta and element health of the present state: a pass over everything, so only on demand.
+  StepReport calc_report() const;
+  std::vector<BodyReport> calc_body_reports() const;
+  // XXH3 (64 bit) over step (int64), positions, velocities (doubles, little endian).
+  std::uint64_t calc_state_hash() const;
+  // The longest step an explicit scheme may take, s, never above the true limit of the linearised scene; infinite for
+  // schemes without one. margin = limit / (step / substeps).
+  double calc_stable_step() const;
+  // Sentences about the present settings that a user should know: a margin below one.
+  std::vector<std::string> calc_warnings() const;
+
+  const std::vector<ParameterDescriptor>& parameters() const { return parameters_; }
+  const ParameterDescriptor* find_parameter(std::string_view name) const;
+  ParameterValue parameter(const ParameterDescriptor& descriptor) const;
+  // All or nothing. Errors name the parameter, the value and what is allowed. On success the revision grows by one.
+  Result<void> set_parameters(std::span<const ParameterAssignment> assignments);
+  std::uint64_t parameter_revision() const { return parameter_revision_; }  // from 1; never falls, not even at reset
+
+  // Number of the step that ends nearest to `time`: round(time / step) counted from now on.
+  std::int64_t step_at(double time) const;
+
+ private:
+  void apply_values(std::span<const ParameterAssignment> assignments);
+  void refresh();
+  void note_failure();
+  double calc_dissipated_power() const;
+
+  std::unique_ptr<Model> model_;  // has a stable address: the forces refer to it
+  Settings settings_;
+  State initial_, state_, before_;
+  std::vector<Probe> probes_;
+  std::unique_ptr<System> system_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<ParameterDescriptor> parameters_;
+  std::uint64_t parameter_revision_ = 1;
+  StepStatistics statistics_;
+  std::optional<Failure> failure_;
+  // Time is base_time_ + (step - base_step_) * dt, so that no error adds up; a changed dt moves the base.
+  std::int64_t base_step_ = 0;
+  double base_time_ = 0.0;
+  double booked_work_ = 0.0;  // J, jumps of parameter changes
+  double dissipated_ = 0.0;   // J
+  double power_ = 0.0;        // W, dissipated at the present state
+};
+
+}  // namespace flexcast

@@ -1,0 +1,27 @@
+// Linear systems A x = b with A symmetric, in 3 x 3 blocks.
+#pragma once
+
+#include <memory>
+
+#include "core/base/block_matrix.h"
+#include "core/solvers/settings.h"
+
+namespace flexcast {
+
+struct LinearResult {
+  bool positive_definite = true;  // false: a direction of non-positive curvature was met; x is of no use
+  bool converged = true;          // false: the tolerance was not reached; x is the best found
+  int iterations = 0;             // 0 for direct solvers
+};
+
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  // The pattern of A must be the same at every call.
+  virtual LinearResult solve(const BlockMatrix& A, const VecX& b, VecX& x) = 0;
+};
+
+// settings.linear: "pcg", "ldlt", or "auto", which takes ldlt up to 1000 particles.
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverSettings& settings, std::int64_t particles);
+
+}  // namespace flexcast

@@ -1,0 +1,61 @@
+#include "core/solvers/newton.h"
+
+namespace flexcast {
+
+// False: no descent direction could be found (something is not finite).
+bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& u,
+                                  NewtonResult& result) {
+  const VecX right = -gradient_;
+  for (const bool exact : {true, false}) {
+    problem.calc_hessian(u, exact, hessian);
+    const LinearResult linear = linear_->solve(hessian, right, direction_);
+    result.linear_iterations += linear.iterations;
+    if (linear.positive_definite && direction_.dot(right) > 0.0) return true;
+  }
+  return false;
+}
+
+// Armijo's rule with halving. Close to the minimum the values differ by less than their rounding: there a smaller
+// gradient counts as progress.
+bool NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& terms) {
+  constexpr double sufficient = 1e-4, rounding = 1e-13;
+  const double slope = gradient_.dot(direction_);
+  const auto start = problem.calc_value(u);
+  const double norm = gradient_.norm();
+  double length = 1.0;
+  for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+    trial_ = u + length * direction_;
+    const auto value = problem.calc_value(trial_);
+    const bool lower = value.value <= start.value + sufficient * length * slope;
+    const bool level = value.value <= start.value + rounding * (start.magnitude + value.magnitude);
+    if (!lower && !level) continue;
+    const double trial_terms = problem.calc_gradient(trial_, trial_gradient_);
+    if (!lower && !(trial_gradient_.norm() < norm)) continue;
+    u.swap(trial_);
+    gradient_.swap(trial_gradient_);
+    terms = trial_terms;
+    return true;
+  }
+  return false;
+}
+
+NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& hessian, VecX& u) {
+  NewtonResult result;
+  double terms = problem.calc_gradient(u, gradient_);
+  while (true) {
+    const double norm = gradient_.norm();
+    result.residual = terms > 0.0 ? norm / terms : 0.0;
+    result.converged = norm <= settings_.newton_tolerance * terms;
+    if (result.converged || result.iterations >= settings_.newton_iterations) return result;
+    if (!find_direction(problem, hessian, u, result)) return result;
+    ++result.iterations;
+    if (settings_.newton_iterations == 1) {
+      u += direction_;
+      terms = problem.calc_gradient(u, gradient_);
+    } else if (!search_line(problem, u, terms)) {
+      return result;
+    }
+  }
+}
+
+}  // namespace flexcast

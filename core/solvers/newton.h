@@ -1,0 +1,49 @@
+// Newton's method with line search for the minimum of a smooth function, as implicit schemes need it.
+// Source: J. Nocedal, S. J. Wright, Numerical Optimization, Springer 2006, chapters 3 and 6.
+#pragma once
+
+#include "core/solvers/linear_solver.h"
+
+namespace flexcast {
+
+class MinimizationProblem {
+ public:
+  virtual ~MinimizationProblem() = default;
+  struct Value {
+    double value = 0.0;
+    double magnitude = 0.0;  // sum of the terms' absolute values: what rounding is relative to
+  };
+  virtual Value calc_value(const VecX& u) = 0;
+  // Returns the summed norms of the gradient's terms: what its own norm is compared with. Zero at held entries.
+  virtual double calc_gradient(const VecX& u, VecX& gradient) = 0;
+  // Exact, or a positive definite neighbour of it.
+  virtual void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) = 0;
+};
+
+struct NewtonResult {
+  bool converged = false;
+  int iterations = 0;
+  int linear_iterations = 0;
+  double residual = 0.0;  // |gradient| / summed norms of its terms, at the end
+};
+
+// Scratch that outlives a solve, so that steps need not allocate.
+class NewtonSolver {
+ public:
+  NewtonSolver(const SolverSettings& settings, std::int64_t particles)
+      : settings_(settings), linear_(make_linear_solver(settings, particles)) {}
+
+  // Improves u in place. With newton_iterations = 1 it takes the full Newton step, without a search: the linearly
+  // implicit schemes. A hessian that turns out indefinite is replaced by its positive definite neighbour.
+  NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, VecX& u);
+
+ private:
+  bool find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& u, NewtonResult& result);
+  bool search_line(MinimizationProblem& problem, VecX& u, double& terms);
+
+  SolverSettings settings_;
+  std::unique_ptr<LinearSolver> linear_;
+  VecX gradient_, trial_gradient_, direction_, trial_;
+};
+
+}  // namespace flexcast
