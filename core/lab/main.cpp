@@ -1,0 +1,31 @@
+// flexcast-lab: parses its command line and calls the verb.
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+
+#include "core/lab/options.h"
+
+namespace {
+std::atomic<bool> stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler writes it
+
+void request_stop(int) {
+  stop = true;
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  flexcast::LabCommand command = flexcast::parse_lab_command({argv + 1, argv + argc});
+  if (const auto* end = std::get_if<flexcast::CommandLineEnd>(&command)) {
+    (end->exit_code == 0 ? std::cout : std::cerr) << end->text;
+    return end->exit_code;
+  }
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  auto& options = std::get<flexcast::RunOptions>(command);
+  options.stop = &stop;
+  options.progress = isatty(STDERR_FILENO) != 0;
+  return flexcast::run_verb(options, std::cout, std::cerr);
+}

@@ -1,0 +1,73 @@
+#include "core/lab/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <sstream>
+
+namespace flexcast {
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  flexcast-lab run server/scenes/cantilever.toml --until 2 --csv tip.csv\n"
+    "  flexcast-lab run server/scenes/cloth.toml --steps 100 --set cloth.stiffness=200 --set 'gravity=[0,0,-3]' "
+    "--json\n"
+    "\n"
+    "Results go to stdout, warnings and progress to stderr. Exit code: 0 success, 1 the scene or the simulation "
+    "failed,\n"
+    "2 bad usage.";
+
+std::string check_assignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  return equals == std::string::npos || equals == 0 ? "--set " + text + ": expected PATH=VALUE" : "";
+}
+
+std::string check_time(const std::string& text) {
+  double value = 0.0;
+  const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0.0;
+  return good ? "" : "--until " + text + ": expected a number >= 0, s";
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Run a scene and print the report of its last step and its probes.");
+  run->footer(footer);
+  run->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  auto* until = run->add_option("--until", options.until, "Simulated time at which to stop, s; round(T / step) steps")
+                    ->type_name("T")
+                    ->check(check_time);
+  run->add_option("--steps", options.steps, "Number of steps; 0: the initial state")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(until);
+  run->add_option("--set", options.overrides,
+                  "A value of the scene or a parameter, written as in TOML: time.step=1e-4, beam.young=2e5")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all()
+      ->check(check_assignment);
+  run->add_option("--csv", options.csv, "File for one row per frame, the initial state first")->type_name("FILE");
+  run->add_option("--positions", options.positions, "File for the final positions, one `x y z` a line")
+      ->type_name("FILE");
+  run->add_flag("--json", options.json, "Print the report as JSON");
+}
+
+}  // namespace
+
+LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
+  CLI::App app("flexcast-lab: soft-body scenes without network, what they do and what they cost.", "flexcast-lab");
+  app.footer(footer);
+  app.set_version_flag("--version", std::string("flexcast-lab ") + FLEXCAST_VERSION);
+  app.require_subcommand(1);
+  RunOptions run;
+  add_run(app, run);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, log;
+    const bool answered = app.exit(error, out, log) == 0;
+    return CommandLineEnd{answered ? out.str() : log.str(), answered ? 0 : 2};
+  }
+  return run;
+}
+
+}  // namespace flexcast

@@ -1,0 +1,23 @@
+// The command line of flexcast-lab.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/lab/run.h"
+
+namespace flexcast {
+
+// The command line is answered already (--help, --version) or wrong: text to show and the exit code, 0 or 2.
+struct CommandLineEnd {
+  std::string text;
+  int exit_code = 0;
+};
+
+// One alternative a verb.
+using LabCommand = std::variant<CommandLineEnd, RunOptions>;
+
+LabCommand parse_lab_command(const std::vector<std::string>& arguments);
+
+}  // namespace flexcast

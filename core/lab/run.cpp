@@ -1,0 +1,121 @@
+#include "core/lab/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+#include "core/lab/frame_table.h"
+#include "core/lab/output_file.h"
+#include "core/lab/progress.h"
+#include "core/lab/report_json.h"
+#include "core/lab/report_text.h"
+
+namespace flexcast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t default_steps = 1000;
+constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
+
+Result<std::int64_t> calc_step_count(const RunOptions& options, const Settings& settings) {
+  if (options.steps) return *options.steps;
+  const std::optional<double> until = options.until ? options.until : settings.time.duration;
+  if (!until) return default_steps;
+  const double steps = std::round(*until / settings.time.step);
+  if (steps > most_steps) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%g s is too long (allowed: at most 1e15 steps of time.step = %g s)", *until,
+                  settings.time.step);
+    return Error{text};
+  }
+  return static_cast<std::int64_t>(steps);
+}
+
+bool is_stopped(const RunOptions& options) {
+  return options.stop && options.stop->load(std::memory_order_relaxed);
+}
+
+// Steps to the end, a frame to the table at the start and every stream.every steps.
+void step_to_end(const RunOptions& options, std::int64_t count, Run& run, FrameTable* table, Progress& progress) {
+  Simulation& simulation = *run.scene.simulation;
+  if (table) table->add(simulation);
+  run.state = "finished";
+  while (run.steps < count && run.state == "finished") {
+    const Clock::time_point start = Clock::now();
+    const bool done = simulation.step();
+    run.wall_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    if (!done) {
+      run.state = "failed";
+      break;
+    }
+    ++run.steps;
+    if (table && run.steps % simulation.settings().stream.every == 0) table->add(simulation);
+    progress.show(run.steps, count, simulation.state().time, run.wall_seconds);
+    if (is_stopped(options)) run.state = "stopped";
+  }
+}
+
+Result<void> write_positions(const std::filesystem::path& path, const VecX& positions) {
+  auto file = OutputFile::open(path);
+  if (!file) return file.error();
+  for (Eigen::Index i = 0; i < positions.size(); i += 3) {
+    file.value().stream() << exact_text(positions[i]) << ' ' << exact_text(positions[i + 1]) << ' '
+                          << exact_text(positions[i + 2]) << '\n';
+  }
+  return file.value().close();
+}
+
+}  // namespace
+
+Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
+  auto loaded = load_scene(options.scene, options.overrides);
+  if (!loaded) return loaded.error();
+  Run run{std::move(loaded).value(), "", 0, 0.0, {}};
+  Simulation& simulation = *run.scene.simulation;
+  const auto count = calc_step_count(options, simulation.settings());
+  if (!count) return count.error();
+  run.warnings = run.scene.notes;
+  for (std::string& warning : simulation.calc_warnings()) run.warnings.push_back(std::move(warning));
+  for (const std::string& warning : run.warnings) log << "flexcast-lab: warning: " << warning << std::endl;
+
+  std::optional<OutputFile> csv;
+  std::optional<FrameTable> table;
+  if (options.csv) {
+    auto file = OutputFile::open(*options.csv);
+    if (!file) return file.error();
+    csv.emplace(std::move(file).value());
+    table.emplace(csv->stream(), simulation);
+  }
+  {
+    Progress progress(log, options.progress);
+    step_to_end(options, count.value(), run, table ? &*table : nullptr, progress);
+  }
+  if (csv) {
+    if (auto closed = csv->close(); !closed) return closed.error();
+  }
+  if (options.positions) {
+    if (auto written = write_positions(*options.positions, simulation.state().positions); !written)
+      return written.error();
+  }
+  return run;
+}
+
+int run_verb(const RunOptions& options, std::ostream& out, std::ostream& log) {
+  const auto run = run_scene(options, log);
+  if (!run) {
+    log << "flexcast-lab: " << run.error().message << std::endl;
+    return 1;
+  }
+  if (options.json)
+    out << make_report_json(run.value()).dump(2) << std::endl;
+  else
+    out << make_report_text(run.value()) << std::flush;
+  const auto& failure = run.value().scene.simulation->failure();
+  if (failure) log << "flexcast-lab: " << failure->text() << std::endl;
+  if (!out) log << "flexcast-lab: the report cannot be written" << std::endl;
+  return run.value().state == "finished" && out ? 0 : 1;
+}
+
+}  // namespace flexcast

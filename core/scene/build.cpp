@@ -1,0 +1,190 @@
+#include "core/scene/build.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "core/scene/body_reader.h"
+#include "core/scene/mesh_section.h"
+#include "core/scene/placement.h"
+#include "core/scene/selectors.h"
+#include "core/scene/value_text.h"
+
+namespace flexcast {
+namespace {
+
+template <class Element>
+IndexRange append(const std::vector<Element>& elements, std::int32_t first_particle, std::vector<Element>& all) {
+  const IndexRange range{static_cast<std::int32_t>(all.size()), static_cast<std::int32_t>(elements.size())};
+  for (Element element : elements) {
+    for (std::int32_t& node : element) node += first_particle;
+    all.push_back(element);
+  }
+  return range;
+}
+
+VecX flatten(const std::vector<Vec3>& vectors) {
+  VecX flat(3 * static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i) block3(flat, static_cast<std::int64_t>(i)) = vectors[i];
+  return flat;
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return std::move(bytes).str();
+}
+
+class Builder {
+ public:
+  Builder(const SceneDescription& description, const std::filesystem::path& directory)
+      : description_(description), directory_(directory) {}
+
+  BuiltScene build() {
+    built_.model.gravity = description_.gravity;
+    for (const BodyDescription& body : description_.bodies) add_body(body);
+    start_at_rest();
+    for (std::size_t i = 0; i < description_.bodies.size(); ++i)
+      apply_entries(description_.bodies[i], built_.model.bodies[i]);
+    hold_fixed();
+    check();
+    for (const ProbeDescription& probe : description_.probes) add_probe(probe);
+    return std::move(built_);
+  }
+
+ private:
+  void add_body(const BodyDescription& description) {
+    MeshFile file = make_mesh(description.mesh, description.law != nullptr, directory_);
+    Mesh& mesh = file.mesh;
+    if (static_cast<double>(rest_.size() + mesh.nodes.size()) > most_particles)
+      refuse_owner(description.place, "the scene has more than " + count_text(most_particles) + " particles");
+    place_mesh(description, mesh);
+
+    Model& model = built_.model;
+    const auto first = static_cast<std::int32_t>(rest_.size());
+    Body body = make_body(description, mesh.nodes.size());
+    body.particles = {first, static_cast<std::int32_t>(mesh.nodes.size())};
+    body.tetrahedra = append(mesh.tetrahedra, first, model.tetrahedra);
+    body.springs = append(mesh.springs, first, model.springs);
+    body.triangles = append(mesh.triangles, first, model.triangles);
+    rest_.insert(rest_.end(), mesh.nodes.begin(), mesh.nodes.end());
+    model.bodies.push_back(std::move(body));
+    for (const std::string& repair : file.repairs)
+      built_.notes.push_back("body \"" + description.name + "\": " + repair);
+    for (const std::filesystem::path& path : file.files) attach(description.mesh, path);
+  }
+
+  static Body make_body(const BodyDescription& description, std::size_t particles) {
+    Body body;
+    body.name = description.name;
+    body.law = description.law;
+    body.young = description.young;
+    body.poisson = description.poisson;
+    body.density = description.density;
+    body.stiffness_damping = description.damping_stiffness;
+    body.stiffness = description.spring_stiffness;
+    body.damping = description.spring_damping;
+    const double share = description.total_mass.value_or(0.0) / static_cast<double>(particles);
+    body.particle_mass = description.mass.value_or(share);
+    body.mass_damping = description.damping_mass;
+    body.drag = description.drag;
+    return body;
+  }
+
+  // Under the name the scene uses; the other half of a pair stands beside it.
+  void attach(const MeshDescription& mesh, const std::filesystem::path& path) {
+    const std::string name = (std::filesystem::path(mesh.file).parent_path() / path.filename()).string();
+    const bool there = std::ranges::find(built_.files, name, &SceneAttachment::name) != built_.files.end();
+    if (!there) built_.files.push_back({name, read_bytes(path)});
+  }
+
+  void start_at_rest() {
+    built_.model.rest_positions = flatten(rest_);
+    built_.state.positions = built_.model.rest_positions;
+    built_.state.velocities = VecX::Zero(built_.state.positions.size());
+    built_.model.fixed.assign(3 * rest_.size(), 0);
+  }
+
+  void apply_entries(const BodyDescription& description, Body& body) {
+    const auto selected = [&](const Selector& selector) { return select(selector, rest_, body.particles); };
+    for (const MassDescription& mass : description.particle_masses)
+      for (std::int32_t i : selected(mass.select)) body.mass_overrides.push_back({i, mass.value});
+    for (const PinDescription& pin : description.pins)
+      for (std::int32_t i : selected(pin.select))
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (pin.axes[axis]) built_.model.fixed[3 * static_cast<std::size_t>(i) + axis] = 1;
+    for (const VectorDescription& displacement : description.displacements)
+      for (std::int32_t i : selected(displacement.select)) block3(built_.state.positions, i) += displacement.value;
+    for (const VelocityDescription& velocity : description.velocities)
+      for (std::int32_t i : selected(velocity.select)) {
+        const Vec3 arm = block3(built_.state.positions, i) - velocity.about;
+        block3(built_.state.velocities, i) += velocity.value + velocity.spin.cross(arm);
+      }
+    VecX& forces = built_.model.external_forces;
+    if (!description.forces.empty() && forces.size() == 0) forces = VecX::Zero(built_.state.positions.size());
+    for (const VectorDescription& force : description.forces)
+      for (std::int32_t i : selected(force.select)) block3(forces, i) += force.value;
+  }
+
+  void hold_fixed() {
+    for (std::size_t i = 0; i < built_.model.fixed.size(); ++i)
+      if (built_.model.fixed[i]) built_.state.velocities[static_cast<Eigen::Index>(i)] = 0.0;
+  }
+
+  // What single values in range can still add or multiply up to.
+  void check() {
+    Model& model = built_.model;
+    update_masses(model);
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      const Place& place = description_.bodies[i].place;
+      const IndexRange range = model.bodies[i].particles;
+      const auto finite = [&](const VecX& v) { return v.segment(3 * range.first, 3 * range.count).allFinite(); };
+      if (!finite(built_.state.positions)) refuse_owner(place, "displacement gives positions that are not finite");
+      if (!finite(built_.state.velocities)) refuse_owner(place, "velocity gives velocities that are not finite");
+      if (model.external_forces.size() > 0 && !finite(model.external_forces))
+        refuse_owner(place, "force gives forces that are not finite");
+      for (std::int32_t p = range.first; p < range.end(); ++p)
+        if (!ranges::positive.contains(model.masses[p]))
+          refuse_owner(place, "particle " + std::to_string(p - range.first) + " has the mass " +
+                                  number_text(model.masses[p]) + " kg in double precision; expected > 0");
+    }
+  }
+
+  void add_probe(const ProbeDescription& probe) {
+    const Body& body = *find_body(built_.model, probe.body);
+    const IndexRange range = body.particles;
+    if (!probe.node) {
+      built_.probes.push_back({probe.name, probe.body, find_nearest(*probe.at, range)});
+      return;
+    }
+    if (*probe.node >= range.count)
+      refuse_owner(probe.place, "node = " + std::to_string(*probe.node) + " is out of range (allowed: 0 to " +
+                                    std::to_string(range.count - 1) + ")");
+    built_.probes.push_back({probe.name, probe.body, range.first + static_cast<std::int32_t>(*probe.node)});
+  }
+
+  std::int32_t find_nearest(const Vec3& at, IndexRange range) const {
+    std::int32_t nearest = range.first;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::int32_t i = range.first; i < range.end(); ++i) {
+      const double distance = (rest_[static_cast<std::size_t>(i)] - at).stableNorm();
+      if (distance >= smallest) continue;
+      smallest = distance;
+      nearest = i;
+    }
+    return nearest;
+  }
+
+  const SceneDescription& description_;
+  const std::filesystem::path& directory_;
+  std::vector<Vec3> rest_;
+  BuiltScene built_;
+};
+
+}  // namespace
+
+BuiltScene build_scene(const SceneDescription& description, const std::filesystem::path& directory) {
+  return Builder(description, directory).build();
+}
+
+}  // namespace flexcast

@@ -1,0 +1,75 @@
+#include "core/scene/scene.h"
+
+#include <toml++/toml.h>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <sstream>
+
+#include "core/scene/build.h"
+#include "core/scene/overrides.h"
+#include "core/scene/place.h"
+#include "core/scene/scene_reader.h"
+
+namespace flexcast {
+namespace {
+
+toml::table parse(const std::string& text, const std::string& origin) {
+  try {
+    return toml::parse(text, origin);
+  } catch (const toml::parse_error& error) {
+    const auto line = error.source().begin.line;
+    throw SceneError(origin + (line > 0 ? ":" + std::to_string(line) : "") +
+                     ": not valid TOML: " + std::string(error.description()));
+  }
+}
+
+Scene load(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
+           const std::vector<std::string>& overrides) {
+  toml::table document = parse(text, origin);
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  SceneDescription description = read_scene(document);
+  BuiltScene built = build_scene(description, directory);
+
+  Scene scene;
+  scene.name = std::move(description.name);
+  scene.description = std::move(description.description);
+  scene.text = text;
+  scene.overrides = overrides;
+  scene.files = std::move(built.files);
+  scene.notes = std::move(built.notes);
+  scene.simulation = std::make_unique<Simulation>(std::move(built.model), std::move(description.settings),
+                                                  std::move(built.state), std::move(built.probes));
+  return scene;
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return Error{file.string() + ": is a folder; expected a scene file (TOML)"};
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad())
+    return Error{file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "unknown reason")};
+  return load_scene_text(std::move(text).str(), file.string(), file.parent_path(), overrides);
+}
+
+Result<Scene> load_scene_text(const std::string& text, const std::string& origin,
+                              const std::filesystem::path& directory, const std::vector<std::string>& overrides) {
+  try {
+    return load(text, origin, directory, overrides);
+  } catch (const SceneError& error) {
+    return Error{error.what()};
+  } catch (const std::bad_alloc&) {
+    return Error{origin + ": not enough memory for this scene"};
+  } catch (const std::exception& error) {
+    return Error{origin + ": " + error.what()};
+  }
+}
+
+}  // namespace flexcast

@@ -1,0 +1,116 @@
+#include "core/scene/scene_reader.h"
+
+#include <algorithm>
+
+#include "core/scene/body_reader.h"
+#include "core/scene/parameter_keys.h"
+#include "core/scene/suggestion.h"
+#include "core/scene/value_text.h"
+
+namespace flexcast {
+namespace {
+
+using enum ParameterRow::Scope;
+
+TimeSettings read_time(const TableReader& reader) {
+  TimeSettings time;
+  time.step = read_parameter(reader, scene, "step", time.step);
+  time.integrator = read_parameter(reader, scene, "integrator", time.integrator);
+  time.substeps = read_parameter(reader, scene, "substeps", time.substeps);
+  time.duration = reader.number("duration", {ranges::positive, "s"});
+  constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
+  if (time.duration && *time.duration / time.step > most_steps)
+    reader.refuse_value("duration",
+                        "is more than " + number_text(most_steps) + " steps of time.step = " + number_text(time.step));
+  return time;
+}
+
+SolverSettings read_solver(const TableReader& reader) {
+  SolverSettings solver;
+  solver.linear = read_parameter(reader, scene, "linear", solver.linear);
+  solver.linear_tolerance = read_parameter(reader, scene, "linear_tolerance", solver.linear_tolerance);
+  solver.newton_iterations = read_parameter(reader, scene, "newton_iterations", solver.newton_iterations);
+  solver.newton_tolerance = read_parameter(reader, scene, "newton_tolerance", solver.newton_tolerance);
+  return solver;
+}
+
+StreamSettings read_stream(const TableReader& reader) {
+  StreamSettings stream;
+  stream.fields = reader.choices("fields", {"positions", "velocities"}).value_or(stream.fields);
+  stream.precision = reader.choice("precision", {"float32", "float64"}).value_or(stream.precision);
+  stream.every = read_parameter(reader, scene, "every", stream.every);
+  return stream;
+}
+
+void check_new_name(const std::string& name, const Place& place, const std::vector<std::string_view>& others) {
+  if (std::find(others.begin(), others.end(), name) != others.end())
+    refuse_owner(place, "name = \"" + name + "\" is there twice; names must differ");
+}
+
+std::vector<BodyDescription> read_bodies(const TableReader& top) {
+  std::vector<BodyDescription> bodies;
+  std::vector<std::string_view> names;
+  const std::vector<TableEntry> entries = top.tables("body");
+  if (entries.empty()) refuse_owner(top.place(), "a scene needs a [[body]]; there is none");
+  bodies.reserve(entries.size());  // the names point into it
+  for (const TableEntry& entry : entries) {
+    BodyDescription body = read_body(entry, bodies.size() + 1);
+    check_new_name(body.name, body.place, names);
+    names.push_back(bodies.emplace_back(std::move(body)).name);
+  }
+  return bodies;
+}
+
+ProbeDescription read_probe(const TableEntry& entry, std::size_t number, const std::vector<std::string_view>& bodies) {
+  Place place{entry.place.source, "[[probe]] " + owner_name(entry, number), ""};
+  const TableReader reader({entry.table, place}, {"name", "body", "at", "node"});
+  ProbeDescription probe;
+  probe.place = place;
+  probe.name = reader.require_name("name");
+  probe.body = reader.require_choice("body", bodies);
+  probe.at = reader.vector("at", {ranges::any, "m"});
+  probe.node = reader.integer("node", {ranges::non_negative, ""});
+  if (!probe.at && !probe.node) refuse_owner(place, "missing key at or node; expected one of them");
+  if (probe.at && probe.node) refuse_owner(place, "has both at and node; expected one of them");
+  return probe;
+}
+
+std::vector<ProbeDescription> read_probes(const TableReader& top, const std::vector<BodyDescription>& bodies) {
+  std::vector<std::string_view> body_names, names;
+  for (const BodyDescription& body : bodies) body_names.push_back(body.name);
+  std::vector<ProbeDescription> probes;
+  const std::vector<TableEntry> entries = top.tables("probe");
+  probes.reserve(entries.size());
+  for (const TableEntry& entry : entries) {
+    ProbeDescription probe = read_probe(entry, probes.size() + 1, body_names);
+    check_new_name(probe.name, probe.place, names);
+    names.push_back(probes.emplace_back(std::move(probe)).name);
+  }
+  return probes;
+}
+
+}  // namespace
+
+std::vector<std::string_view> scene_keys() {
+  return {"name", "description", "gravity", "time", "solver", "body", "probe", "stream"};
+}
+
+SceneDescription read_scene(const toml::table& document) {
+  const TableReader top({&document, {source_text(document, "scene"), "", ""}}, scene_keys());
+  SceneDescription description;
+  description.name = top.require_name("name");
+  description.description = top.text("description").value_or("");
+  description.gravity = read_parameter(top, scene, "gravity", description.gravity);
+  if (const auto time = top.table("time"))
+    description.settings.time = read_time({*time, {"step", "integrator", "substeps", "duration"}});
+  if (const auto solver = top.table("solver"))
+    description.settings.solver =
+        read_solver({*solver, {"linear", "linear_tolerance", "newton_iterations", "newton_tolerance"}});
+  if (const auto stream = top.table("stream"))
+    description.settings.stream = read_stream({*stream, {"fields", "precision", "every"}});
+  description.bodies = read_bodies(top);
+  description.probes = read_probes(top, description.bodies);
+  return description;
+}
+
+}  // namespace flexcast
