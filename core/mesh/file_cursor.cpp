@@ -128,7 +128,8 @@ bool FileCursor::has_bytes(std::uint64_t count, const char* expected) {
 
 void FileCursor::skip_past_line(std::string_view start) {
   if (failed()) return;
-  const std::string marker = "\n" + std::string(start);
+  std::string marker = "\n";
+  marker += start;
   const std::size_t found = content_.find(marker, position_);
   if (found == std::string_view::npos) {
     fail("the file ends before " + quoted(start));

@@ -79,7 +79,7 @@ TEST(GmshReader, IgnoresOtherSectionsWhereverTheyStand) {
 
 TEST(GmshReader, ReadsElementsBeforeNodesAndDosLineEnds) {
   std::string text = format_22 + corner_elements_22 + corner_nodes_22;
-  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
   const auto file = read_gmsh_text(text);
   ASSERT_TRUE(file.ok()) << file.error().message;
   EXPECT_EQ(file.value().mesh.nodes, corner);
