@@ -13,6 +13,7 @@ class IncrementalPotential final : public MinimizationProblem {
   explicit IncrementalPotential(const System& system) : base_(system.make_matrix()) {}
 
   BlockMatrix make_hessian() const { return base_; }
+  const VecX& drift() const { return drift_; }  // h v: the displacement without forces
 
   void begin(const System& system, double h, const State& state) {
     system_ = &system;
@@ -86,7 +87,7 @@ class BackwardEuler final : public Integrator {
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
     potential_.begin(system, h, state);
     u_.setZero(system.dofs());
-    const NewtonResult result = newton_.minimize(potential_, hessian_, u_);
+    const NewtonResult result = newton_.minimize(potential_, hessian_, potential_.drift(), u_);
     state.positions += u_;
     state.velocities = u_ / h;
     statistics.residual = result.residual;

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* footer =
     "Examples:\n"
     "  flexcast-lab run server/scenes/cantilever.toml --until 2 --csv tip.csv\n"
-    "  flexcast-lab run server/scenes/cloth.toml --steps 100 --set cloth.stiffness=200 --set 'gravity=[0,0,-3]' "
+    "  flexcast-lab run server/scenes/cloth.toml --steps 100 --set cloth.stiffness=5 --set 'gravity=[0,0,-3]' "
     "--json\n"
     "\n"
     "Results go to stdout, warnings and progress to stderr. Exit code: 0 success, 1 the scene or the simulation "
@@ -42,8 +42,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--set", options.overrides,
                   "A value of the scene or a parameter, written as in TOML: time.step=1e-4, beam.young=2e5")
       ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->take_all()
+      ->allow_extra_args(false)
       ->check(check_assignment);
   run->add_option("--csv", options.csv, "File for one row per frame, the initial state first")->type_name("FILE");
   run->add_option("--positions", options.positions, "File for the final positions, one `x y z` a line")

@@ -15,6 +15,7 @@ namespace flexcast {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t default_steps = 1000;
 constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
@@ -109,7 +110,7 @@ int run_verb(const RunOptions& options, std::ostream& out, std::ostream& log) {
     return 1;
   }
   if (options.json)
-    out << make_report_json(run.value()).dump(2) << std::endl;
+    out << make_report_json(run.value()).dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
   else
     out << make_report_text(run.value()) << std::flush;
   const auto& failure = run.value().scene.simulation->failure();

@@ -3,11 +3,16 @@
 namespace flexcast {
 
 // False: no descent direction could be found (something is not finite).
-bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& u,
-                                  NewtonResult& result) {
+bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess,
+                                  const VecX& u, NewtonResult& result) {
   const VecX right = -gradient_;
   for (const bool exact : {true, false}) {
     problem.calc_hessian(u, exact, hessian);
+    if (result.iterations == 0) {
+      direction_ = guess;
+    } else {
+      direction_.setZero(u.size());
+    }
     const LinearResult linear = linear_->solve(hessian, right, direction_);
     result.linear_iterations += linear.iterations;
     if (linear.positive_definite && direction_.dot(right) > 0.0) return true;
@@ -39,7 +44,7 @@ bool NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& te
   return false;
 }
 
-NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& hessian, VecX& u) {
+NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u) {
   NewtonResult result;
   double terms = problem.calc_gradient(u, gradient_);
   while (true) {
@@ -47,7 +52,7 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
     result.residual = terms > 0.0 ? norm / terms : 0.0;
     result.converged = norm <= settings_.newton_tolerance * terms;
     if (result.converged || result.iterations >= settings_.newton_iterations) return result;
-    if (!find_direction(problem, hessian, u, result)) return result;
+    if (!find_direction(problem, hessian, guess, u, result)) return result;
     ++result.iterations;
     if (settings_.newton_iterations == 1) {
       u += direction_;

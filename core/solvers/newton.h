@@ -33,12 +33,13 @@ class NewtonSolver {
   NewtonSolver(const SolverSettings& settings, std::int64_t particles)
       : settings_(settings), linear_(make_linear_solver(settings, particles)) {}
 
-  // Improves u in place. With newton_iterations = 1 it takes the full Newton step, without a search: the linearly
+  // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it takes the full Newton step, without a search: the linearly
   // implicit schemes. A hessian that turns out indefinite is replaced by its positive definite neighbour.
-  NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, VecX& u);
+  NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u);
 
  private:
-  bool find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& u, NewtonResult& result);
+  bool find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, const VecX& u,
+                      NewtonResult& result);
   bool search_line(MinimizationProblem& problem, VecX& u, double& terms);
 
   SolverSettings settings_;

@@ -26,14 +26,18 @@ void PcgSolver::precondition(const VecX& r, VecX& z) const {
 
 LinearResult PcgSolver::solve(const BlockMatrix& A, const VecX& b, VecX& x) {
   LinearResult result;
-  x.setZero(b.size());
   const double target = tolerance_ * b.norm();
-  if (b.isZero(0.0)) return result;
+  if (b.isZero(0.0)) {
+    x.setZero(b.size());
+    return result;
+  }
   if (!invert_diagonal(A)) {
     result.positive_definite = false;
     return result;
   }
-  r_ = b;
+  A.multiply(x, Ap_);
+  r_ = b - Ap_;
+  if (r_.norm() <= target) return result;
   precondition(r_, z_);
   p_ = z_;
   double rz = r_.dot(z_);
