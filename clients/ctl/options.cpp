@@ -1,0 +1,80 @@
+#include "clients/ctl/options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace flexcast::ctl {
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  flexcast-ctl list
+  flexcast-ctl --world cantilever set beam.young=2e6 'gravity=[0, 0, -3]'
+  flexcast-ctl step 100 --json
+
+Values are written as in TOML; texts need no quotes. Results go to stdout, messages to stderr.
+Exit code: 0 done, 1 the operation failed, 2 bad usage.)";
+
+CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->fallthrough();  // options may follow the verb
+  command->callback([&options, verb] { options.verb = verb; });
+  return command;
+}
+
+void add_verbs(CLI::App& app, Options& options) {
+  add_verb(app, options, Verb::list, "list", "The worlds on the domain");
+  add_verb(app, options, Verb::describe, "describe", "The parameters: values, units, ranges");
+  add_verb(app, options, Verb::get, "get", "Values of parameters")
+      ->add_option("NAME", options.words, "Names; none: all parameters");
+  add_verb(app, options, Verb::set, "set", "Change parameters, all or nothing")
+      ->add_option("NAME=VALUE", options.words, "0.5, 3, [x, y, z], \"text\" or text")
+      ->required();
+  add_verb(app, options, Verb::reset, "reset", "Start a new run from the scene's initial state")
+      ->add_flag("--keep-parameters", options.keep_parameters, "Keep changed parameters");
+  add_verb(app, options, Verb::pause, "pause", "Stop the course of time");
+  add_verb(app, options, Verb::resume, "resume", "Go on");
+  add_verb(app, options, Verb::step, "step", "Do N steps and pause")
+      ->add_option("N", options.count, "Number of steps")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_verb(app, options, Verb::run_until, "run-until", "Run until a simulated time and stop there")
+      ->add_option("T", options.time, "Simulated time, s")
+      ->required();
+  for (const auto& [verb, name, description] : {std::tuple(Verb::load, "load", "Load a scene of the server's folder"),
+                                                std::tuple(Verb::save, "save", "Save a checkpoint"),
+                                                std::tuple(Verb::restore, "restore", "Restore a checkpoint")})
+    add_verb(app, options, verb, name, description)->add_option("NAME", options.words)->required()->expected(1);
+  add_verb(app, options, Verb::status, "status", "State, health and the report of the newest step")
+      ->add_flag("--watch", options.watch, "A line for every status until interrupted");
+}
+
+}  // namespace
+
+Parsed parse(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  Options options;
+  options.connect.name = "ctl";
+  double wait = 10.0;
+  CLI::App app("Controls flexcast servers over the network.", "flexcast-ctl");
+  app.footer(footer);
+  app.set_version_flag("--version", "flexcast-ctl " FLEXCAST_VERSION);
+  app.require_subcommand(1);
+  app.add_option("--world", options.connect.world, "The world; may be left out when there is one only");
+  app.add_option("--domain", options.connect.domain, "DDS domain")
+      ->check(CLI::Range(0, wire::maximum_domain))
+      ->capture_default_str();
+  app.add_option("--profile", options.connect.profile, "Network: loopback, lan or PATH.xml (default: loopback)");
+  app.add_option("--wait", wait, "Seconds to wait for the server and for its reply")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "Print one JSON object");
+  add_verbs(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return {{}, app.exit(error, out, err) == 0 ? 0 : 2};
+  }
+  options.connect.wait = std::chrono::nanoseconds(static_cast<std::int64_t>(wait * 1e9));
+  options.connect.timeout = std::max<std::chrono::nanoseconds>(options.connect.wait, std::chrono::seconds(1));
+  return {std::move(options), 0};
+}
+
+}  // namespace flexcast::ctl

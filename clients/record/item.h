@@ -1,0 +1,31 @@
+// What the receiving thread hands to the file's thread: a message off the wire, or a file that becomes an attachment.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "idl/wire/topics.h"
+
+namespace flexcast::record {
+
+struct Message {
+  wire::TopicId topic = wire::TopicId::frames;
+  std::uint32_t sequence = 0;
+  std::int64_t log_time = 0;  // ns since 1970
+  std::int64_t publish_time = 0;
+  std::vector<std::byte> bytes;  // CDR with its header
+};
+
+struct Attachment {
+  std::string name;
+  std::string media_type;
+  std::int64_t log_time = 0;  // ns since 1970
+  std::vector<std::byte> bytes;
+};
+
+using Item = std::variant<Message, Attachment>;
+
+}  // namespace flexcast::record

@@ -1,0 +1,111 @@
+#include "clients/record/run_ledger.h"
+
+#include <algorithm>
+
+namespace flexcast::record {
+namespace {
+
+// Chunks are mixed up over as many frames as wait in the reader at most; what is older stays incomplete.
+constexpr std::size_t most_parts = 4096;
+
+}  // namespace
+
+std::string_view name_of(GapCause cause) {
+  switch (cause) {
+    case GapCause::not_received:
+      return "not received";
+    case GapCause::incomplete:
+      return "incomplete";
+    case GapCause::queue:
+      return "queue";
+  }
+  return "unknown";
+}
+
+bool RunLedger::is_repeated(const wire::FrameHead& head) const {
+  return head.chunk < next_.size() && head.frame < next_[head.chunk];
+}
+
+bool RunLedger::add(const wire::FrameHead& head) {
+  newest_ = std::max(newest_, head.frame);
+  first_seen_ = std::min(first_seen_, head.frame);
+  seen_.add(head.frame);
+  if (next_.size() < head.chunks) next_.resize(head.chunks, 0);
+  next_[head.chunk] = head.frame + 1;
+
+  std::vector<bool>& part = parts_[head.frame];
+  if (part.empty()) part.resize(head.chunks);
+  if (part.size() == head.chunks) part[head.chunk] = true;
+  if (std::find(part.begin(), part.end(), false) != part.end()) {
+    if (parts_.size() > most_parts) parts_.erase(parts_.begin());
+    return false;
+  }
+  parts_.erase(head.frame);
+  const Moment moment{head.step, head.time};
+  if (complete_.empty() || head.frame < complete_.first()) first_ = moment;
+  if (complete_.empty() || head.frame > complete_.last()) last_ = moment;
+  complete_.add(head.frame);
+  return true;
+}
+
+void RunLedger::drop(const wire::FrameHead& head) {
+  newest_ = std::max(newest_, head.frame);
+  dropped_.add(head.frame);
+}
+
+std::uint64_t RunLedger::joined_at() const {
+  if (watched_) return 0;
+  // A recorder that joins between two chunks of a frame cannot have that frame.
+  const bool joined_within =
+      !complete_.empty() && !complete_.contains(first_seen_) && cause_of(first_seen_) == GapCause::incomplete;
+  return joined_within ? first_seen_ + 1 : first_seen_;
+}
+
+std::uint64_t RunLedger::in_progress() const {
+  const auto newer = complete_.empty() ? parts_.begin() : parts_.upper_bound(complete_.last());
+  return static_cast<std::uint64_t>(
+      std::count_if(newer, parts_.end(), [&](const auto& part) { return !dropped_.contains(part.first); }));
+}
+
+std::uint64_t RunLedger::missing() const {
+  return newest_ + 1 - joined_at() - complete_.size() - in_progress();
+}
+
+GapCause RunLedger::cause_of(std::uint64_t frame) const {
+  if (dropped_.contains(frame)) return GapCause::queue;
+  return seen_.contains(frame) ? GapCause::incomplete : GapCause::not_received;
+}
+
+RunSummary RunLedger::summary() const {
+  RunSummary summary{.run_id = run_id_, .joined_at = joined_at()};
+  if (complete_.empty()) return summary;
+  summary.first_frame = complete_.first();
+  summary.last_frame = complete_.last();
+  summary.frames = complete_.size();
+  summary.steps = last_.step - first_.step;
+  summary.seconds = last_.time - first_.time;
+  return summary;
+}
+
+std::vector<Gap> RunLedger::gaps() const {
+  std::vector<Gap> gaps;
+  for (std::uint64_t frame = joined_at(); frame <= newest_;) {
+    const auto complete = complete_.stretch(frame);
+    std::uint64_t last = std::min(complete.last, newest_);
+    if (!complete.contained) {
+      last = std::min({last, dropped_.stretch(frame).last, seen_.stretch(frame).last});
+      const GapCause cause = cause_of(frame);
+      const bool goes_on = !gaps.empty() && gaps.back().last + 1 == frame && gaps.back().cause == cause;
+      if (goes_on) {
+        gaps.back().last = last;
+      } else {
+        gaps.push_back({run_id_, frame, last, cause});
+      }
+    }
+    if (last == newest_) break;
+    frame = last + 1;
+  }
+  return gaps;
+}
+
+}  // namespace flexcast::record

@@ -1,0 +1,97 @@
+// RunLedger: which frames of one run are in the recording, and which are missing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "clients/record/frame_ranges.h"
+#include "idl/wire/frame_head.h"
+
+namespace flexcast::record {
+
+// Why a frame is missing.
+enum class GapCause {
+  not_received,  // the server did not publish it, or it was lost on the way
+  incomplete,    // some of its chunks came, others did not
+  queue,         // it came while the recorder's queue was full: the disk was too slow
+};
+
+// "not received", "incomplete", "queue"
+std::string_view name_of(GapCause cause);
+
+struct Gap {
+  std::uint64_t run_id = 0;
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;  // included
+  GapCause cause = GapCause::not_received;
+
+  bool operator==(const Gap&) const = default;
+};
+
+struct RunSummary {
+  std::uint64_t run_id = 0;
+  std::uint64_t joined_at = 0;    // the first frame that should be in the recording; 0: watched from the beginning
+  std::uint64_t first_frame = 0;  // in the recording, if frames > 0
+  std::uint64_t last_frame = 0;
+  std::uint64_t frames = 0;  // complete ones
+  std::uint64_t steps = 0;   // from the first to the last frame
+  double seconds = 0;        // the same, simulated
+};
+
+// Chunks of several frames may come mixed up, those with the same chunk number come in the order of their frames. Every
+// head given here has chunk < chunks.
+class RunLedger {
+ public:
+  // `watched`: the recorder was there when the run began, so frame 0 should come. Otherwise it joins with the first
+  // frame it sees whole.
+  RunLedger(std::uint64_t run_id, bool watched, std::uint64_t first_seen)
+      : run_id_(run_id), watched_(watched), first_seen_(first_seen), newest_(first_seen) {}
+
+  std::uint64_t run_id() const { return run_id_; }
+
+  // A chunk that is not newer than the last one recorded with its number: sent again for late joiners.
+  bool is_repeated(const wire::FrameHead& head) const;
+
+  // A frame of which nothing was recorded so far.
+  bool is_new(std::uint64_t frame) const { return !seen_.contains(frame); }
+
+  // Takes note of a recorded chunk; true when it makes its frame complete.
+  bool add(const wire::FrameHead& head);
+
+  // Takes note of a chunk that did not fit the queue.
+  void drop(const wire::FrameHead& head);
+
+  std::uint64_t frames() const { return complete_.size(); }
+  std::uint64_t in_progress() const;  // frames that are newer than every complete one and may become complete
+  std::uint64_t missing() const;      // frames, without those in progress
+  std::uint64_t next_frame() const { return complete_.empty() ? joined_at() : complete_.last() + 1; }
+
+  RunSummary summary() const;
+
+  // Ordered; neighbours differ in cause. Frames in progress count as incomplete.
+  std::vector<Gap> gaps() const;
+
+ private:
+  struct Moment {
+    std::uint64_t step = 0;
+    double time = 0;
+  };
+  std::uint64_t joined_at() const;
+  GapCause cause_of(std::uint64_t frame) const;
+
+  std::uint64_t run_id_;
+  bool watched_;
+  std::uint64_t first_seen_;
+  std::uint64_t newest_;  // dropped ones included
+  Moment first_;          // of complete frames
+  Moment last_;
+  FrameRanges complete_;
+  FrameRanges seen_;                                  // a chunk was recorded
+  FrameRanges dropped_;                               // a chunk was not
+  std::map<std::uint64_t, std::vector<bool>> parts_;  // which chunks came, of frames that are not complete
+  std::vector<std::uint64_t> next_;                   // of each chunk number: 1 + the last frame recorded
+};
+
+}  // namespace flexcast::record
