@@ -1,0 +1,62 @@
+// FrameMailbox: everything that goes from the simulation thread to the publisher. Frames pass through a bounded ring
+// and are refused when it is full; notices are few and never refused; of statuses the newest counts. The simulation
+// thread holds the lock for moments only and never waits for the publisher.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "core/state/state.h"
+#include "server/convert/clock.h"
+#include "server/convert/notice_types.h"
+#include "server/convert/status_types.h"
+#include "server/frame_ring.h"
+
+namespace flexcast::server {
+
+class FrameMailbox {
+ public:
+  explicit FrameMailbox(std::int64_t particles, const FrameLimits& limits = {});
+
+  // ---- for the simulation thread
+
+  // Copies the state. False: no room, nothing was copied. Allocates nothing.
+  bool push(const FrameHeader& header, const State& state);
+  void post(std::vector<Notice> notices);
+  void post(WorldStatus status);
+  bool status_wanted() const { return status_wanted_.load(std::memory_order_relaxed); }  // until a status is posted
+  void beat() { heartbeat_.fetch_add(1, std::memory_order_relaxed); }
+
+  // ---- for the publisher
+
+  // The oldest frame that waits, or null. It stays as it is until the next call that returns a frame.
+  const Frame* take();
+  std::vector<Notice> take_notices();
+  std::optional<WorldStatus> take_status();  // the newest, unless it was taken before
+  void want_status() { status_wanted_.store(true, std::memory_order_relaxed); }
+  std::uint64_t heartbeat() const { return heartbeat_.load(std::memory_order_relaxed); }
+  // Until something waits, wake() is called or the time has come.
+  void wait_until(Clock::time_point time);
+
+  // ---- for anybody
+
+  std::size_t capacity() const { return ring_.capacity(); }
+  std::size_t waiting() const;  // frames
+  void wake();
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  FrameRing ring_;
+  Frame* taken_ = nullptr;  // the publisher's
+  std::vector<Notice> notices_;
+  std::optional<WorldStatus> status_;
+  bool woken_ = false;
+  std::atomic<bool> status_wanted_ = false;
+  std::atomic<std::uint64_t> heartbeat_ = 0;
+};
+
+}  // namespace flexcast::server

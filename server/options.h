@@ -1,0 +1,27 @@
+// The command line of flexcast-server.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flexcast::server {
+
+struct Options {
+  std::string scene;  // path of the scene file
+  std::string world;  // "": the scene's name
+  int domain = 0;
+  std::string profile;  // "": see idl/wire/profile.h
+  double rate = 1.0;    // simulated seconds per wall second; 0: as fast as possible
+  bool paused = false;
+  std::optional<double> until;  // s
+  bool exit = false;            // end when `until` is reached
+  std::vector<std::string> overrides;
+};
+
+// The options, or the code to end with at once: 0 after --help and --version (printed on stdout), 2 on bad usage
+// (explained on stderr).
+std::variant<Options, int> parse_options(int argc, const char* const* argv);
+
+}  // namespace flexcast::server

@@ -1,0 +1,105 @@
+#include "server/publications.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "idl/wire/fill.h"
+#include "server/convert/events.h"
+#include "server/convert/parameters.h"
+#include "server/convert/scene_info.h"
+#include "server/convert/status.h"
+
+namespace flexcast::server {
+
+wire::Result<Publications> Publications::create(const wire::Participant& participant, SceneFacts facts,
+                                                std::uint64_t server_id, const StreamFormat& format) {
+  const FrameSize size = calc_frame_size(facts.model->particle_count(), format);
+  auto scene = wire::Writer<flexcast_SceneInfo>::create(participant);
+  if (!scene) return scene.error();
+  auto topology = wire::Writer<flexcast_Topology>::create(participant);
+  if (!topology) return topology.error();
+  auto parameters = wire::Writer<flexcast_ParameterSet>::create(participant);
+  if (!parameters) return parameters.error();
+  auto frames = wire::Writer<flexcast_ParticleFrame>::create(participant, wire::frames_writer_qos(size.bytes));
+  if (!frames) return frames.error();
+  auto status = wire::Writer<flexcast_Status>::create(participant);
+  if (!status) return status.error();
+  auto events = wire::Writer<flexcast_Event>::create(participant);
+  if (!events) return events.error();
+  return Publications({std::move(scene).value(), std::move(topology).value(), std::move(parameters).value(),
+                       std::move(frames).value(), std::move(status).value(), std::move(events).value()},
+                      std::move(facts), server_id);
+}
+
+Publications::Publications(Writers writers, SceneFacts facts, std::uint64_t server_id)
+    : writers_(std::move(writers)), facts_(std::move(facts)), server_id_(server_id), frame_message_(facts_.world) {}
+
+template <class T>
+void Publications::write(const wire::Writer<T>& writer, const T& message) {
+  const auto result = writer.write(message);
+  if (result) return;
+  const std::string complaint = std::string(wire::topic_of<T>().name) + ": " + result.error().message;
+  if (complaints_.insert(complaint).second) spdlog::error("{} (said once)", complaint);
+}
+
+void Publications::publish(const Notice& notice) {
+  std::visit([this](const auto& one) { publish_one(one); }, notice);
+}
+
+void Publications::publish_one(const RunStarted& run) {
+  spdlog::info("run {} begins", run.run_id);
+  write(writers_.scene, *make_scene_info(facts_, run));
+  for (std::size_t body = 0; body < facts_.model->bodies.size(); ++body) {
+    for (std::uint32_t chunk = 0; chunk < count_topology_chunks(facts_, body); ++chunk) {
+      write(writers_.topology, *make_topology(facts_, run, body, chunk));
+    }
+  }
+}
+
+void Publications::publish_one(const ParametersChanged& parameters) {
+  write(writers_.parameters, *to_wire(parameters, facts_.world));
+}
+
+void Publications::publish_one(const Event& event) {
+  const auto level =
+      event.kind == EventKind::warning || event.state == WorldState::failed ? spdlog::level::warn : spdlog::level::info;
+  const std::string whose = event.key.client_id.empty() ? "" : " (" + event.key.client_id + ")";
+  spdlog::log(level, "step {}: {}{}", event.step, event.text, whose);
+  write(writers_.events, *to_wire(event, facts_.world));
+}
+
+void Publications::publish(const WorldStatus& status, const DeliveryStatus& delivery) {
+  write(writers_.status, *to_wire(status, delivery, {facts_.world, server_id_}));
+}
+
+void Publications::publish(const Frame& frame) {
+  if (frame_readers().current == 0) return;
+  frame_message_.assign(frame);
+  most_frame_chunks_ = std::max(most_frame_chunks_, frame_message_.chunks());
+  for (std::uint32_t chunk = 0; chunk < frame_message_.chunks(); ++chunk) {
+    write(writers_.frames, frame_message_.chunk(chunk));
+  }
+}
+
+template <class T>
+void Publications::dispose(const wire::Writer<T>& writer, T& message) {
+  wire::set_string(message.world, facts_.world);
+  if (auto result = writer.dispose(message); !result) spdlog::debug("{}", result.error().message);
+}
+
+void Publications::dispose() {
+  wire::Owned<flexcast_ParticleFrame> frame;
+  for (; frame->chunk < most_frame_chunks_; ++frame->chunk) dispose(writers_.frames, *frame);
+  wire::Owned<flexcast_Topology> topology;
+  for (; topology->body < facts_.model->bodies.size(); ++topology->body) {
+    const std::uint32_t chunks = count_topology_chunks(facts_, topology->body);
+    for (topology->chunk = 0; topology->chunk < chunks; ++topology->chunk) dispose(writers_.topology, *topology);
+  }
+  dispose(writers_.parameters, *wire::Owned<flexcast_ParameterSet>());
+  dispose(writers_.scene, *wire::Owned<flexcast_SceneInfo>());
+  dispose(writers_.events, *wire::Owned<flexcast_Event>());
+  dispose(writers_.status, *wire::Owned<flexcast_Status>());
+}
+
+}  // namespace flexcast::server

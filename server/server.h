@@ -1,0 +1,53 @@
+// Server: a scene, its world and the threads around it, wired together.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+#include "server/command_service.h"
+#include "server/frame_mailbox.h"
+#include "server/options.h"
+#include "server/publisher.h"
+#include "server/simulation_thread.h"
+
+namespace flexcast::server {
+
+class Server {
+ public:
+  // Loads the scene, joins the domain, claims the world's name and begins. Errors are for the user to read.
+  static Result<std::unique_ptr<Server>> start(const Options& options);
+  ~Server() { stop(); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // Ends in order: no more commands, no more steps, what waits is published, a last status, goodbye.
+  void stop();
+
+  // "world bunny on domain 0, profile loopback: 2500 particles, dt 0.001 s, rate 1", as it began.
+  const std::string& description() const { return description_; }
+
+  WorldState state() const { return simulation_.state(); }
+  // The world stands at its end (or failed), and its last frame is on its way.
+  bool ended() const;
+  Publisher::Latest latest() const { return publisher_.latest(); }
+
+ private:
+  Server(const Options& options, Scene scene, wire::Participant participant, Publications publications);
+
+  Scene scene_;
+  wire::Participant participant_;
+  RunIds run_ids_;
+  World world_;
+  Queue<Command> commands_{4096};  // more than that and clients have to ask again
+  Queue<Reply> replies_;
+  FrameMailbox mailbox_;
+  SimulationThread simulation_;
+  Publications publications_;
+  Publisher publisher_;
+  std::unique_ptr<CommandService> service_;
+  std::string description_;
+};
+
+}  // namespace flexcast::server

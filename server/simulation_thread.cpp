@@ -1,0 +1,113 @@
+#include "server/simulation_thread.h"
+
+#include <algorithm>
+
+namespace flexcast::server {
+
+SimulationThread::SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox)
+    : world_(world), commands_(commands), replies_(replies), mailbox_(mailbox), pacer_(world.rate()) {
+  hand_frame_over();
+  hand_on();
+}
+
+void SimulationThread::start() {
+  thread_ = std::thread(&SimulationThread::run, this);
+}
+
+void SimulationThread::stop() {
+  stopping_ = true;
+  commands_.wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void SimulationThread::run() {
+  while (!stopping_) {
+    const auto sleep = turn(Clock::now());
+    if (sleep > Clock::duration::zero()) commands_.wait_for(std::min(sleep, longest_sleep));
+  }
+  apply_commands(Clock::now());
+  world_.close();
+  hand_on();
+  post_status();
+}
+
+Clock::duration SimulationThread::turn(Clock::time_point now) {
+  mailbox_.beat();
+  apply_commands(now);
+  hand_frame_over();
+  hand_on();
+  if (!world_.running()) {
+    pacer_.restart();
+    meter_.stop();
+    return longest_sleep;
+  }
+  if (!meter_.started()) meter_.start(now, world_.simulation_state().time);
+  pacer_.set_rate(world_.rate());
+  const auto wait = pacer_.calc_wait(now, world_.simulation_state().time, world_.next_time());
+  if (wait > Clock::duration::zero()) return wait;
+  step();
+  return Clock::duration::zero();
+}
+
+void SimulationThread::apply_commands(Clock::time_point now) {
+  if (commands_.size() == 0) return;
+  const auto run = world_.run_id();
+  for (const Command& command : commands_.take_all()) {
+    world_.apply(command, now);
+    if (pending_ && pending_->run_id != world_.run_id()) drop_pending_frame();
+    hand_frame_over();
+  }
+  if (world_.run_id() == run) return;
+  frames_skipped_ = 0;
+  pacer_.restart();
+  meter_.stop();
+}
+
+void SimulationThread::step() {
+  drop_pending_frame();
+  const auto begin = Clock::now();
+  world_.take_step();
+  const auto end = Clock::now();
+  meter_.add_step(end, world_.simulation_state().time, end - begin);
+  hand_frame_over();
+  world_.settle(seconds(end - begin));
+  hand_on();
+}
+
+void SimulationThread::hand_frame_over() {
+  if (auto header = world_.take_due_frame()) {
+    drop_pending_frame();
+    pending_ = header;
+  }
+  if (pending_ && mailbox_.push(*pending_, world_.simulation_state())) pending_.reset();
+  handed_over_ = !pending_;
+}
+
+void SimulationThread::drop_pending_frame() {
+  if (!pending_) return;
+  pending_.reset();
+  ++frames_skipped_;
+}
+
+void SimulationThread::hand_on() {
+  mailbox_.post(world_.take_notices());
+  if (mailbox_.status_wanted() || world_.state() != posted_state_ || world_.run_id() != posted_run_) post_status();
+  for (Reply& reply : world_.take_replies()) replies_.push(std::move(reply));
+  state_ = world_.state();
+}
+
+void SimulationThread::post_status() {
+  const auto begin = Clock::now();
+  WorldStatus status = world_.calc_status();
+  const auto end = Clock::now();
+  status.report_seconds = seconds(end - begin);
+  status.real_time_factor = world_.running() ? meter_.real_time_factor(end) : 0.0;
+  status.step_seconds = meter_.step_seconds();
+  status.frames_skipped = frames_skipped_;
+  status.command_queue = static_cast<std::uint32_t>(commands_.size());
+  posted_run_ = status.run_id;
+  posted_state_ = status.state;
+  mailbox_.post(std::move(status));
+}
+
+}  // namespace flexcast::server

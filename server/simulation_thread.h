@@ -1,0 +1,64 @@
+// SimulationThread: owns the step loop. It applies the commands that wait, steps, hands the frame on, keeps the pace;
+// it never calls DDS and never waits for the publisher.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "server/frame_mailbox.h"
+#include "server/pacer.h"
+#include "server/queue.h"
+#include "server/rate_meter.h"
+#include "server/world.h"
+
+namespace flexcast::server {
+
+class SimulationThread {
+ public:
+  // `commands` in, `replies` and `mailbox` out; all must outlive this object. The first status, frame and notices are
+  // handed on here.
+  SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox);
+  ~SimulationThread() { stop(); }
+  SimulationThread(const SimulationThread&) = delete;
+  SimulationThread& operator=(const SimulationThread&) = delete;
+
+  void start();
+  // Ends the loop after the present step, answers what is open and hands a last status on.
+  void stop();
+
+  // One turn of the loop, for tests that run it without the thread. Returns how long the loop may sleep.
+  Clock::duration turn(Clock::time_point now);
+
+  // As of the last turn: the world's state, and whether its newest frame is in the mailbox.
+  WorldState state() const { return state_; }
+  bool handed_over() const { return handed_over_; }
+
+ private:
+  static constexpr Clock::duration longest_sleep = std::chrono::milliseconds(50);
+
+  void run();
+  void apply_commands(Clock::time_point now);
+  void step();
+  void hand_frame_over();
+  void drop_pending_frame();
+  void hand_on();  // notices, replies; status when wanted or the state changed
+  void post_status();
+
+  World& world_;
+  Queue<Command>& commands_;
+  Queue<Reply>& replies_;
+  FrameMailbox& mailbox_;
+  Pacer pacer_;
+  RateMeter meter_;
+  std::optional<FrameHeader> pending_;  // of the present state: found no room yet
+  std::uint64_t frames_skipped_ = 0;
+  std::uint64_t posted_run_ = 0;  // of the last status
+  WorldState posted_state_ = WorldState::paused;
+  std::atomic<WorldState> state_ = WorldState::paused;
+  std::atomic<bool> handed_over_ = false;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace flexcast::server

@@ -1,0 +1,109 @@
+// World: a simulation, its state (running, paused, finished, failed) and what commands do to it. It has no thread and
+// no clock: the simulation thread calls it and hands on what it leaves behind (frames due, replies, notices).
+//
+// A world that reaches the end it was given (`until`) is finished: it may be stepped or run further, and is paused
+// then. After a reset a world runs if it ran, stands if it stood; a finished or failed one starts as it was started.
+// A goal (`step n`, `run_until t`) makes the world run and ends in `paused`; whatever stops the world earlier (pause,
+// reset, a failure, a newer goal) answers the goal's request with wrong_state and says why.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/sim/simulation.h"
+#include "server/chronicle.h"
+#include "server/convert/command_types.h"
+#include "server/convert/status_types.h"
+#include "server/frame_ring.h"
+#include "server/parameter_table.h"
+#include "server/run_ids.h"
+
+namespace flexcast::server {
+
+struct WorldOptions {
+  double rate = 1.0;  // simulated seconds per wall second; 0: as fast as possible
+  bool paused = false;
+  std::optional<double> until;  // s
+};
+
+class World {
+ public:
+  World(Simulation& simulation, const WorldOptions& options, RunIds& run_ids);
+
+  WorldState state() const { return state_; }
+  bool running() const { return state_ == WorldState::running; }
+  std::uint64_t run_id() const { return chronicle_.run_id(); }
+  double rate() const { return parameters_.rate(); }
+  const State& simulation_state() const { return simulation_.state(); }
+  double next_time() const;  // s, after the next step
+
+  // Does what the command asks, between two steps. The answer is among the replies, at once or when it is reached.
+  void apply(const Command& command, Clock::time_point now);
+
+  // One step of a running world; a step that cannot be taken leaves it failed. Call settle() afterwards, when the frame
+  // has been handed on.
+  void take_step();
+  // Ends the goal or the run that the last step has reached. `wall_seconds`: what that step took.
+  void settle(double wall_seconds);
+
+  // The server is ending: answers what is still open.
+  void close();
+
+  // The frame of the present state, once.
+  std::optional<FrameHeader> take_due_frame();
+  std::vector<Reply> take_replies() { return std::exchange(replies_, {}); }
+  std::vector<Notice> take_notices() { return chronicle_.take(); }
+  WorldStatus calc_status() const;
+
+ private:
+  struct Goal {
+    Command command;
+    std::int64_t step = 0;
+  };
+
+  void do_command(const Command& command, const SetCommand& set);
+  void do_command(const Command& command, const GetCommand& get);
+  void do_command(const Command& command, const DescribeCommand&);
+  void do_command(const Command& command, const ResetCommand& reset);
+  void do_command(const Command& command, const PauseCommand&);
+  void do_command(const Command& command, const ResumeCommand&);
+  void do_command(const Command& command, const StepCommand& step);
+  void do_command(const Command& command, const RunUntilCommand& run_until);
+  void do_command(const Command& command, const StatusCommand&);
+  void do_command(const Command& command, const UnsupportedCommand&);
+  void do_command(const Command& command, const MalformedCommand& malformed);
+
+  void begin_run();
+  void begin_goal(const Command& command, std::int64_t step, const std::string& text);
+  void drop_goal(const std::string& reason);
+  void change_state(WorldState state, const std::string& text);
+  void fail();
+  void follow_parameters();
+  bool at_end() const { return end_step_ && simulation_.state().step >= *end_step_; }
+  bool arrived() const;  // at the goal; without one at the end
+  void make_frame_due();
+
+  Moment moment() const;
+  MeasuredReport calc_measured_report() const;
+  Reply make_reply(const Command& command, Outcome outcome, std::string reason = {}) const;
+  void answer(const Command& command, Outcome outcome, std::string reason = {});
+
+  Simulation& simulation_;
+  WorldOptions options_;
+  RunIds& run_ids_;
+  ParameterTable parameters_;
+  Chronicle chronicle_;
+  WorldState state_ = WorldState::paused;
+  StreamFormat format_;
+  std::vector<std::string> warnings_;
+  std::optional<std::int64_t> end_step_;  // of --until; gone once it has been reached
+  std::optional<Goal> goal_;
+  std::optional<FrameHeader> due_frame_;
+  std::uint64_t next_frame_ = 0;
+  double wall_seconds_ = 0.0;  // of the last step
+  std::vector<Reply> replies_;
+};
+
+}  // namespace flexcast::server
