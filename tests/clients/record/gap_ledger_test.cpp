@@ -1,0 +1,225 @@
+#include "clients/record/gap_ledger.h"
+
+#include <gtest/gtest.h>
+
+namespace flexcast::record {
+namespace {
+
+constexpr std::uint64_t server = 1;  // a writer
+constexpr std::uint64_t run = 1000;
+
+wire::FrameHead head_of(std::uint64_t frame, std::uint32_t chunk = 0, std::uint32_t chunks = 1,
+                        std::uint64_t run_id = run) {
+  wire::FrameHead head;
+  head.run_id = run_id;
+  head.frame = frame;
+  head.step = 10 * frame;
+  head.time = 0.5 * static_cast<double>(frame);
+  head.chunk = chunk;
+  head.chunks = chunks;
+  return head;
+}
+
+// What the receiver does with a sample.
+Verdict offer(GapLedger& ledger, const wire::FrameHead& head, std::uint64_t writer = server) {
+  const Verdict verdict = ledger.judge(head);
+  if (verdict == Verdict::record) ledger.add(head, writer);
+  return verdict;
+}
+
+void offer_frames(GapLedger& ledger, std::uint64_t first, std::uint64_t last, std::uint64_t run_id = run,
+                  std::uint64_t writer = server) {
+  for (std::uint64_t frame = first; frame <= last; ++frame) offer(ledger, head_of(frame, 0, 1, run_id), writer);
+}
+
+TEST(GapLedger, HasNothingMissingOfContiguousFrames) {
+  GapLedger ledger;
+  EXPECT_EQ(ledger.missing(), 0u);
+  offer_frames(ledger, 0, 99);
+  EXPECT_EQ(ledger.frames(), 100u);
+  EXPECT_EQ(ledger.missing(), 0u);
+  EXPECT_EQ(ledger.next_frame(), 100u);
+  EXPECT_TRUE(ledger.gaps().empty());
+  ASSERT_EQ(ledger.runs().size(), 1u);
+  const RunSummary summary = ledger.runs()[0];
+  EXPECT_EQ(summary.run_id, run);
+  EXPECT_EQ(summary.joined_at, 0u);
+  EXPECT_EQ(summary.first_frame, 0u);
+  EXPECT_EQ(summary.last_frame, 99u);
+  EXPECT_EQ(summary.frames, 100u);
+  EXPECT_EQ(summary.steps, 990u);
+  EXPECT_EQ(summary.seconds, 49.5);
+}
+
+TEST(GapLedger, NamesEveryGapInTheMiddle) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 4);
+  offer_frames(ledger, 8, 10);
+  offer_frames(ledger, 12, 12);
+  EXPECT_EQ(ledger.missing(), 4u);
+  EXPECT_EQ(ledger.gaps(),
+            (std::vector<Gap>{{run, 5, 7, GapCause::not_received}, {run, 11, 11, GapCause::not_received}}));
+}
+
+TEST(GapLedger, CountsARunThatWasJoinedLateFromWhereItWasJoined) {
+  GapLedger ledger;
+  offer_frames(ledger, 37, 40);
+  EXPECT_EQ(ledger.missing(), 0u);
+  EXPECT_TRUE(ledger.gaps().empty());
+  EXPECT_EQ(ledger.runs()[0].joined_at, 37u);
+}
+
+TEST(GapLedger, ExpectsALaterRunOfTheSameServerFromItsFirstFrameOn) {
+  GapLedger ledger;
+  offer_frames(ledger, 5, 9);
+  offer_frames(ledger, 2, 4, run + 1);
+  offer_frames(ledger, 0, 1, run + 2);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 1, 0, 1, GapCause::not_received}}));
+  EXPECT_EQ(ledger.missing(), 2u);
+  EXPECT_EQ(ledger.runs()[1].joined_at, 0u);
+  EXPECT_EQ(ledger.runs()[1].first_frame, 2u);
+  EXPECT_EQ(ledger.run_id(), run + 2);
+  EXPECT_EQ(ledger.next_frame(), 2u);
+}
+
+TEST(GapLedger, JoinsTheFirstRunOfAServerThatWasStartedAgain) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 9, run, server);
+  offer_frames(ledger, 3, 5, run + 1, server + 1);
+  offer_frames(ledger, 1, 2, run + 2, server + 1);
+  EXPECT_EQ(ledger.runs()[1].joined_at, 3u);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 2, 0, 0, GapCause::not_received}}));
+}
+
+TEST(GapLedger, DropsAFrameThatIsNotNewerThanTheLast) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 5);
+  EXPECT_EQ(offer(ledger, head_of(5)), Verdict::repeated);
+  EXPECT_EQ(offer(ledger, head_of(2)), Verdict::repeated);
+  EXPECT_EQ(offer(ledger, head_of(6)), Verdict::record);
+  EXPECT_EQ(ledger.frames(), 7u);
+  EXPECT_EQ(ledger.missing(), 0u);
+}
+
+TEST(GapLedger, KnowsRepeatedFramesOfAnEarlierRun) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 5);
+  offer_frames(ledger, 0, 1, run + 1);
+  EXPECT_EQ(offer(ledger, head_of(5)), Verdict::repeated);
+  EXPECT_EQ(ledger.missing(), 0u);
+}
+
+TEST(GapLedger, CountsAFrameWithAMissingChunkAsMissing) {
+  GapLedger ledger;
+  for (std::uint64_t frame = 0; frame < 5; ++frame) {
+    for (std::uint32_t chunk = 0; chunk < 3; ++chunk) {
+      if (frame != 2 || chunk != 1) offer(ledger, head_of(frame, chunk, 3));
+    }
+  }
+  EXPECT_EQ(ledger.frames(), 4u);
+  EXPECT_EQ(ledger.missing(), 1u);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 2, 2, GapCause::incomplete}}));
+}
+
+TEST(GapLedger, CompletesFramesWhoseChunksComeChunkNumberByChunkNumber) {
+  GapLedger ledger;
+  for (std::uint32_t chunk = 0; chunk < 3; ++chunk) {
+    for (std::uint64_t frame = 0; frame < 50; ++frame) {
+      EXPECT_EQ(offer(ledger, head_of(frame, chunk, 3)), Verdict::record);
+    }
+  }
+  EXPECT_EQ(ledger.frames(), 50u);
+  EXPECT_EQ(ledger.missing(), 0u);
+  EXPECT_TRUE(ledger.gaps().empty());
+}
+
+TEST(GapLedger, DoesNotCountAFrameInProgressAsMissingWhileItMayBecomeComplete) {
+  GapLedger ledger;
+  offer(ledger, head_of(0, 0, 2));
+  EXPECT_EQ(ledger.in_progress(), 1u);
+  EXPECT_EQ(ledger.missing(), 0u);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 0, 0, GapCause::incomplete}}));
+  offer(ledger, head_of(0, 1, 2));
+  EXPECT_EQ(ledger.in_progress(), 0u);
+  EXPECT_TRUE(ledger.gaps().empty());
+}
+
+TEST(GapLedger, JoinsAfterAFrameOfWhichItSawTheEndOnly) {
+  GapLedger ledger;
+  offer(ledger, head_of(7, 1, 2));
+  offer(ledger, head_of(8, 0, 2));
+  offer(ledger, head_of(8, 1, 2));
+  EXPECT_EQ(ledger.runs()[0].joined_at, 8u);
+  EXPECT_TRUE(ledger.gaps().empty());
+  EXPECT_EQ(ledger.missing(), 0u);
+}
+
+TEST(GapLedger, NamesTheQueueAsTheCauseOfWhatItDropped) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 2);
+  for (std::uint64_t frame = 3; frame <= 5; ++frame) ledger.drop(head_of(frame), server);
+  offer_frames(ledger, 8, 8);
+  ledger.drop(head_of(9), server);
+  EXPECT_EQ(ledger.gaps(),
+            (std::vector<Gap>{
+                {run, 3, 5, GapCause::queue}, {run, 6, 7, GapCause::not_received}, {run, 9, 9, GapCause::queue}}));
+  EXPECT_EQ(ledger.missing(), 6u);
+}
+
+TEST(GapLedger, TakesADroppedFrameThatIsSentAgain) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 2);
+  ledger.drop(head_of(3), server);
+  EXPECT_EQ(offer(ledger, head_of(3)), Verdict::record);
+  EXPECT_EQ(ledger.frames(), 4u);
+  EXPECT_TRUE(ledger.gaps().empty());
+}
+
+TEST(GapLedger, TakesNoMoreThanTheFramesItWasAskedFor) {
+  GapLedger ledger(3);
+  offer_frames(ledger, 4, 5);
+  EXPECT_FALSE(ledger.is_full());
+  EXPECT_EQ(offer(ledger, head_of(6)), Verdict::record);
+  EXPECT_TRUE(ledger.is_full());
+  EXPECT_EQ(offer(ledger, head_of(7)), Verdict::beyond);
+  EXPECT_EQ(ledger.frames(), 3u);
+}
+
+TEST(GapLedger, StartsNoFrameBeyondThoseItWasAskedFor) {
+  GapLedger ledger(2);
+  EXPECT_EQ(offer(ledger, head_of(0, 0, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(1, 0, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(2, 0, 2)), Verdict::beyond);
+  EXPECT_EQ(offer(ledger, head_of(0, 1, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(1, 1, 2)), Verdict::record);
+  EXPECT_TRUE(ledger.is_full());
+  EXPECT_TRUE(ledger.gaps().empty());
+}
+
+TEST(GapLedger, LetsFramesInProgressBecomeCompleteAfterTheEnd) {
+  GapLedger ledger;
+  offer(ledger, head_of(0, 0, 2));
+  ledger.close();
+  EXPECT_EQ(offer(ledger, head_of(1, 0, 2)), Verdict::beyond);
+  EXPECT_EQ(offer(ledger, head_of(0, 1, 2)), Verdict::record);
+  EXPECT_EQ(ledger.frames(), 1u);
+}
+
+TEST(GapLedger, RefusesChunkNumbersThatMakeNoSense) {
+  GapLedger ledger;
+  EXPECT_EQ(offer(ledger, head_of(0, 0, 0)), Verdict::invalid);
+  EXPECT_EQ(offer(ledger, head_of(0, 2, 2)), Verdict::invalid);
+  EXPECT_EQ(offer(ledger, head_of(0, 0, 0xffffffff)), Verdict::invalid);
+  EXPECT_TRUE(ledger.runs().empty());
+}
+
+TEST(GapLedger, SurvivesTheLargestFrameNumber) {
+  GapLedger ledger;
+  constexpr std::uint64_t largest = GapLedger::no_limit;
+  offer_frames(ledger, 0, 0);
+  offer(ledger, head_of(largest));
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 1, largest - 1, GapCause::not_received}}));
+}
+
+}  // namespace
+}  // namespace flexcast::record

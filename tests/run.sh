@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything twice (as released, and with address and undefined-behaviour sanitizers)
+# and runs all tests. The last lines are ctest's own summary.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source server/setup.sh
+
+install_packages build tests
+(cd tests/interop && npm ci --no-audit --no-fund --loglevel=error)
+
+# Sanitizers on unoptimised code would double the time; -O1 keeps their reports readable.
+build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_C_FLAGS_DEBUG="-O1 -g1" \
+  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF
+build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize"
+
+ctest --test-dir build-tests --output-on-failure --no-tests=error -j "$(nproc)"

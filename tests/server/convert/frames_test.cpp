@@ -1,0 +1,151 @@
+#include "server/convert/frames.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/sim/state_hash.h"
+#include "idl/wire/fill.h"
+#include "server/convert/chunks.h"
+
+namespace flexcast::server {
+namespace {
+
+Frame make_frame(std::int64_t particles, const StreamFormat& format) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-10.0, 10.0);
+  Frame frame;
+  frame.header.run_id = 11;
+  frame.header.frame = 12;
+  frame.header.step = 13;
+  frame.header.time = 0.013;
+  frame.header.parameter_revision = 14;
+  frame.header.format = format;
+  frame.positions = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
+  frame.velocities = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
+  return frame;
+}
+
+constexpr StreamFormat all_floats{true, true, false};
+constexpr StreamFormat all_doubles{true, true, true};
+
+TEST(FrameMessage, CarriesTheHeaderAndTheHashOfTheDoubles) {
+  const Frame frame = make_frame(100, {});
+  FrameMessage message("rope");
+  message.assign(frame);
+  ASSERT_EQ(message.chunks(), 1u);
+  const auto& sample = message.chunk(0);
+  EXPECT_EQ(wire::text(sample.world), "rope");
+  EXPECT_EQ(sample.run_id, 11u);
+  EXPECT_EQ(sample.frame, 12u);
+  EXPECT_EQ(sample.step, 13u);
+  EXPECT_EQ(sample.time, 0.013);
+  EXPECT_EQ(sample.parameter_revision, 14u);
+  EXPECT_EQ(sample.topology_revision, 1u);
+  EXPECT_EQ(sample.total, 100u);
+  EXPECT_EQ(sample.state_hash, calc_state_hash(13, frame.positions, frame.velocities));
+}
+
+TEST(FrameMessage, FloatsAreTheDoublesRounded) {
+  const Frame frame = make_frame(100, all_floats);
+  FrameMessage message("rope");
+  message.assign(frame);
+  const auto& sample = message.chunk(0);
+  ASSERT_EQ(sample.positions._length, 300u);
+  ASSERT_EQ(sample.velocities._length, 300u);
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_EQ(sample.positions._buffer[i], static_cast<float>(frame.positions[i]));
+    EXPECT_EQ(sample.velocities._buffer[i], static_cast<float>(frame.velocities[i]));
+  }
+}
+
+TEST(FrameMessage, DoublesAreTheStatesOwn) {
+  const Frame frame = make_frame(100, all_doubles);
+  FrameMessage message("rope");
+  message.assign(frame);
+  const auto& sample = message.chunk(0);
+  EXPECT_EQ(sample.positions._length + sample.velocities._length, 0u);
+  ASSERT_EQ(sample.positions64._length, 300u);
+  ASSERT_EQ(sample.velocities64._length, 300u);
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_EQ(sample.positions64._buffer[i], frame.positions[i]);
+    EXPECT_EQ(sample.velocities64._buffer[i], frame.velocities[i]);
+  }
+}
+
+TEST(FrameMessage, SendsNoFieldThatWasNotAskedFor) {
+  const Frame frame = make_frame(10, {true, false, false});
+  FrameMessage message("rope");
+  message.assign(frame);
+  const auto& sample = message.chunk(0);
+  EXPECT_EQ(sample.positions._length, 30u);
+  EXPECT_EQ(sample.velocities._length, 0u);
+  EXPECT_EQ(sample.positions64._length + sample.velocities64._length + sample.positions16._length, 0u);
+  EXPECT_EQ(sample.stretch._length + sample.stress._length, 0u);
+}
+
+TEST(FrameMessage, BoundsAreThoseOfAllParticles) {
+  Frame frame = make_frame(1000, {});
+  block3(frame.positions, 3) = Vec3(-20, 0, 0);
+  block3(frame.positions, 999) = Vec3(0, 30, -40);
+  FrameMessage message("rope");
+  message.assign(frame);
+  const auto& bounds = message.chunk(0).bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = 1e9;
+    double high = -1e9;
+    for (int i = 0; i < 1000; ++i) {
+      low = std::min(low, frame.positions[3 * i + axis]);
+      high = std::max(high, frame.positions[3 * i + axis]);
+    }
+    EXPECT_EQ(bounds[axis], low);
+    EXPECT_EQ(bounds[axis + 3], high);
+  }
+}
+
+TEST(FrameMessage, ChunksCoverEveryParticleExactlyOnceAndStayBelowOneMebibyte) {
+  constexpr std::uint32_t particles = 300'001;
+  const Frame frame = make_frame(particles, all_floats);
+  FrameMessage message("rope");
+  message.assign(frame);
+  EXPECT_EQ(message.chunks(), 7u);  // 7.2 MB
+  std::uint32_t next = 0;
+  for (std::uint32_t chunk = 0; chunk < message.chunks(); ++chunk) {
+    const auto& sample = message.chunk(chunk);
+    EXPECT_EQ(sample.chunk, chunk);
+    EXPECT_EQ(sample.first, next);
+    EXPECT_EQ(sample.total, particles);
+    EXPECT_EQ(sample.positions._length, sample.velocities._length);
+    EXPECT_LE((sample.positions._length + sample.velocities._length) * sizeof(float), chunk_bytes - chunk_overhead);
+    const std::uint32_t count = sample.positions._length / 3;
+    for (std::uint32_t i = 0; i < 3 * count; i += 997) {
+      ASSERT_EQ(sample.positions._buffer[i], static_cast<float>(frame.positions[3 * next + i]));
+      ASSERT_EQ(sample.velocities._buffer[i], static_cast<float>(frame.velocities[3 * next + i]));
+    }
+    next += count;
+  }
+  EXPECT_EQ(next, particles);
+}
+
+TEST(FrameMessage, AFrameUpToOneMebibyteIsOneSample) {
+  const auto fits = static_cast<std::int64_t>((chunk_bytes - chunk_overhead) / 12);
+  EXPECT_EQ(calc_frame_size(fits, {}).chunks, 1u);
+  EXPECT_EQ(calc_frame_size(fits + 1, {}).chunks, 2u);
+}
+
+TEST(Chunks, RunsFollowEachOtherWithoutGapWhateverTheNumbers) {
+  for (std::size_t count : {0u, 1u, 7u, 1000u, 99'999u}) {
+    for (std::uint32_t chunks : {1u, 2u, 3u, 7u, 100u}) {
+      std::size_t next = 0;
+      for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        const ChunkRun run = chunk_run(count, chunk, chunks);
+        EXPECT_EQ(run.first, next);
+        next += run.count;
+      }
+      EXPECT_EQ(next, count);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flexcast::server

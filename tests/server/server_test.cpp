@@ -1,0 +1,209 @@
+// The whole server in this process, seen through DDS.
+#include "server/server.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "idl/wire/fill.h"
+#include "idl/wire/reader.h"
+#include "idl/wire/writer.h"
+#include "tests/server/worlds.h"
+#include "tests/support/network.h"
+
+namespace flexcast::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::filesystem::path write_scene() {
+  const auto path = std::filesystem::temp_directory_path() / ("flexcast_rope_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(path) << test::rope_scene();
+  return path;
+}
+
+Options paused_rope() {
+  Options options;
+  options.scene = write_scene();
+  options.domain = flexcast::test::test_domain();
+  options.profile = "loopback";
+  options.paused = true;
+  return options;
+}
+
+std::unique_ptr<Server> start_paused_server() {
+  auto server = Server::start(paused_rope());
+  if (!server) throw std::runtime_error(server.error().message);
+  return std::move(server).value();
+}
+
+// The time limit only ends a test that hangs.
+template <class Condition>
+bool wait_for(Condition condition) {
+  const auto limit = Clock::now() + 60s;
+  while (!condition()) {
+    if (Clock::now() > limit) return false;
+    std::this_thread::sleep_for(2ms);
+  }
+  return true;
+}
+
+class Client {
+ public:
+  Client()
+      : participant_(flexcast::test::join_test_domain()),
+        commands_(wire::Writer<flexcast_Command>::create(participant_).value()),
+        replies_(wire::Reader<flexcast_Reply>::create(participant_).value()),
+        events_(wire::Reader<flexcast_Event>::create(participant_).value()) {
+    if (!wait_for([&] { return commands_.matched().current > 0 && replies_.matched().current > 0; })) {
+      throw std::runtime_error("no server was found");
+    }
+  }
+
+  wire::Participant& participant() { return participant_; }
+
+  static wire::Owned<flexcast_Command> make(flexcast_CommandKind kind) {
+    static std::uint64_t request_id = 0;
+    wire::Owned<flexcast_Command> command;
+    wire::set_string(command->world, "rope");
+    wire::set_string(command->client_id, "tester");
+    command->request_id = ++request_id;
+    command->kind = kind;
+    return command;
+  }
+
+  wire::Owned<flexcast_Reply> ask(const wire::Owned<flexcast_Command>& command) {
+    wire::Owned<flexcast_Reply> answer;
+    if (!commands_.write(*command)) throw std::runtime_error("the command could not be written");
+    const bool came = wait_for([&] {
+      auto taken = replies_.take_owned();
+      for (auto& reply : taken.value()) {
+        if (!reply.info.valid || reply.data->request_id != command->request_id) continue;
+        answer = std::move(reply.data);
+        return true;
+      }
+      return false;
+    });
+    if (!came) throw std::runtime_error("no reply came");
+    return answer;
+  }
+
+  std::size_t count_events(flexcast_CommandKind kind) {
+    auto samples = events_.take();
+    std::size_t count = 0;
+    for (auto [event, info] : samples.value()) {
+      count += info.valid && event.kind == flexcast_EVENT_COMMAND && event.command == kind ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  wire::Participant participant_;
+  wire::Writer<flexcast_Command> commands_;
+  wire::Reader<flexcast_Reply> replies_;
+  wire::Reader<flexcast_Event> events_;
+};
+
+TEST(Server, ARecordingReaderGetsEveryFrameOfTheStepsItAskedFor) {
+  const auto server = start_paused_server();
+  Client client;
+  auto frames =
+      wire::Reader<flexcast_ParticleFrame>::create(client.participant(), wire::frames_recorder_qos(1000, 1)).value();
+  ASSERT_TRUE(wait_for([&] { return frames.matched().current > 0 && frames.wait(0ns); }));  // frame 0, again
+  auto command = Client::make(flexcast_COMMAND_STEP);
+  command->count = 50;
+  const auto reply = client.ask(command);
+  EXPECT_EQ(reply->outcome, flexcast_OUTCOME_APPLIED);
+  EXPECT_EQ(reply->applied_step, 50u);
+  EXPECT_EQ(reply->state, flexcast_WORLD_PAUSED);
+  std::vector<std::uint64_t> numbers;
+  ASSERT_TRUE(wait_for([&] {
+    auto samples = frames.take();
+    for (auto [frame, info] : samples.value()) {
+      if (!info.valid) continue;
+      EXPECT_EQ(frame.step, frame.frame);
+      EXPECT_EQ(frame.positions._length, 33u);
+      numbers.push_back(frame.frame);
+    }
+    return !numbers.empty() && numbers.back() == 50;
+  }));
+  ASSERT_EQ(numbers.size(), 51u);
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], i);
+}
+
+TEST(Server, ALateReaderOfAStandingWorldSeesTheNewestFrame) {
+  const auto server = start_paused_server();
+  Client client;
+  auto command = Client::make(flexcast_COMMAND_STEP);
+  command->count = 7;
+  client.ask(command);
+  auto frames = wire::Reader<flexcast_ParticleFrame>::create(client.participant()).value();
+  std::uint64_t seen = 0;
+  EXPECT_TRUE(wait_for([&] {
+    auto samples = frames.take();
+    for (auto [frame, info] : samples.value()) seen = info.valid ? frame.frame : seen;
+    return seen == 7;
+  }));
+}
+
+TEST(Server, ARepeatedRequestIsAnsweredAgainAndExecutedOnce) {
+  const auto server = start_paused_server();
+  Client client;
+  auto command = Client::make(flexcast_COMMAND_STEP);
+  command->count = 3;
+  const auto first = client.ask(command);
+  const auto again = client.ask(command);
+  EXPECT_EQ(first->applied_step, 3u);
+  EXPECT_EQ(again->applied_step, 3u);
+  EXPECT_EQ(client.ask(Client::make(flexcast_COMMAND_STATUS))->report.step, 3u);
+  EXPECT_EQ(client.count_events(flexcast_COMMAND_STEP), 1u);
+}
+
+TEST(Server, LateReadersFindSceneTopologyParametersAndAllEvents) {
+  const auto server = start_paused_server();
+  Client client;
+  client.ask(Client::make(flexcast_COMMAND_RESET));
+  auto scenes = wire::Reader<flexcast_SceneInfo>::create(client.participant()).value();
+  auto topologies = wire::Reader<flexcast_Topology>::create(client.participant()).value();
+  auto parameters = wire::Reader<flexcast_ParameterSet>::create(client.participant()).value();
+  ASSERT_TRUE(wait_for([&] { return scenes.wait(0ns) && topologies.wait(0ns) && parameters.wait(0ns); }));
+  auto scene = scenes.take_owned();
+  auto topology = topologies.take_owned();
+  auto values = parameters.take_owned();
+  EXPECT_EQ(wire::text(scene.value().at(0).data->scene_text), test::rope_scene());
+  EXPECT_EQ(topology.value().at(0).data->rest_positions._length, 33u);
+  EXPECT_EQ(topology.value().at(0).data->run_id, scene.value().at(0).data->run_id);
+  EXPECT_GT(values.value().at(0).data->descriptors._length, 5u);
+  EXPECT_EQ(client.count_events(flexcast_COMMAND_RESET), 1u);
+}
+
+TEST(Server, ASecondServerWithTheSameWorldIsRefused) {
+  const auto server = start_paused_server();
+  Options options = paused_rope();
+  const auto second = Server::start(options);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message.find("'rope'"), std::string::npos);
+  options.world = "other";
+  EXPECT_TRUE(Server::start(options));
+  Client client;  // the first is untouched
+  EXPECT_EQ(client.ask(Client::make(flexcast_COMMAND_STATUS))->outcome, flexcast_OUTCOME_APPLIED);
+}
+
+TEST(Server, SaysGoodbye) {
+  auto server = start_paused_server();
+  Client client;
+  auto statuses = wire::Reader<flexcast_Status>::create(client.participant()).value();
+  ASSERT_TRUE(wait_for([&] { return statuses.wait(0ns); }));
+  server.reset();
+  EXPECT_TRUE(wait_for([&] {
+    auto samples = statuses.take();
+    for (auto [status, info] : samples.value()) {
+      if (info.state == wire::InstanceState::disposed) return true;
+    }
+    return false;
+  }));
+}
+
+}  // namespace
+}  // namespace flexcast::server

@@ -1,0 +1,103 @@
+// flexcast-ctl against a real server: what it prints parses, and its exit codes are 0, 1 and 2.
+#include <gtest/gtest.h>
+
+#include "tests/system/scenes.h"
+#include "tests/system/system_test.h"
+
+namespace flexcast::test {
+namespace {
+
+using CtlSystem = SystemTest;
+
+TEST_F(CtlSystem, EverythingItPrintsWithJsonParses) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--paused"});
+  const Json worlds = ctl_json({"list"})["worlds"];
+  ASSERT_EQ(worlds.size(), 1U);
+  EXPECT_EQ(worlds[0]["world"], "pair");
+  EXPECT_EQ(worlds[0]["state"], "paused");
+
+  const Json described = ctl_json({"describe"});
+  const Json values = ctl_json({"get"})["values"];
+  EXPECT_EQ(described["descriptors"].size(), values.size());
+  for (const Json& descriptor : described["descriptors"]) {
+    const auto name = descriptor["name"].get<std::string>();
+    EXPECT_TRUE(values.contains(name)) << name;
+    EXPECT_FALSE(descriptor["description"].get<std::string>().empty()) << name;
+    EXPECT_EQ(descriptor["initial"], values[name]) << name;
+  }
+  EXPECT_EQ(values["beam.young"], 1e5);
+  EXPECT_EQ(values["gravity"], Json::parse("[0.0, 0.0, -9.81]"));
+  EXPECT_EQ(values["time.integrator"], "symplectic_euler");
+  EXPECT_EQ(ctl_json({"get", "rope.damping"})["values"], Json::parse(R"({"rope.damping": 0.01})"));
+
+  const Json status = ctl_json({"status"});
+  EXPECT_EQ(status["step"], 0);
+  EXPECT_EQ(status["report"]["kinetic"].is_number(), true);
+  EXPECT_EQ(status["probes"]["end"]["position"], Json::parse("[1.0, 0.0, 1.0]"));
+  EXPECT_EQ(ctl_json({"--world", "pair", "run-until", "0.01"})["applied_step"], 10);
+  EXPECT_EQ(ctl_json({"status"})["report"]["step"], 10);
+}
+
+TEST_F(CtlSystem, ReadsWellWithoutJson) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--paused"});
+  const std::vector<std::pair<Arguments, std::string>> said = {
+      {{"list"}, "pair"},
+      {{"describe"}, "rope.stiffness"},
+      {{"get", "rope.stiffness"}, "50"},
+      {{"status"}, "paused"},
+      {{"step", "2"}, "step 2"},
+      {{"set", "rope.damping=0.5"}, "0.5"},
+      {{"run-until", "0.005"}, "step 5"},
+      {{"reset"}, "step 0"},
+      {{"resume"}, "running"},
+      {{"pause"}, "paused"},
+  };
+  for (const auto& [arguments, part] : said) {
+    const Ended ended = ctl(arguments);
+    EXPECT_EQ(ended.code, 0) << arguments[0] << ": " << ended.err;
+    EXPECT_EQ(ended.err, "") << arguments[0];
+    EXPECT_NE(ended.out.find(part), std::string::npos) << arguments[0] << ": " << ended.out;
+  }
+}
+
+TEST_F(CtlSystem, NoServerIsAFailureWithinTheWaitAndBadUsageIsTold) {
+  for (const Arguments& arguments : {Arguments{"--wait", "0.3", "status"}, Arguments{"--wait", "0.3", "get"},
+                                     Arguments{"--wait", "0.3", "--world", "nobody", "pause"}}) {
+    const Ended ended = ctl(arguments);
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_NE(ended.err.find("domain " + std::to_string(domain())), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.out, "");
+  }
+  EXPECT_EQ(ctl_json({"list"})["worlds"].size(), 0U);
+  for (const Arguments& arguments : {Arguments{},
+                                     {"fly"},
+                                     {"set"},
+                                     {"step", "-1"},
+                                     {"step", "x"},
+                                     {"run-until"},
+                                     {"--domain", "999", "list"},
+                                     {"--wait", "soon", "list"}}) {
+    const Ended ended = run("flexcast-ctl", arguments);
+    EXPECT_EQ(ended.code, 2) << ended.err;
+    EXPECT_FALSE(ended.err.empty());
+    EXPECT_EQ(ended.out, "");
+  }
+}
+
+TEST_F(CtlSystem, EveryProgramKnowsHelpVersionAndBadUsage) {
+  for (const std::string program : {"flexcast-server", "flexcast-record", "flexcast-ctl", "flexcast-lab"}) {
+    const Ended help = run(program, {"--help"});
+    EXPECT_EQ(help.code, 0) << program;
+    EXPECT_NE(help.out.find("xample"), std::string::npos) << program;
+    const Ended version = run(program, {"--version"});
+    EXPECT_EQ(version.code, 0) << program;
+    EXPECT_NE(version.out.find(program), std::string::npos) << program;
+    const Ended bad = run(program, {"--no-such-option"});
+    EXPECT_EQ(bad.code, 2) << program;
+    EXPECT_EQ(bad.out, "") << program;
+    EXPECT_FALSE(bad.err.empty()) << program;
+  }
+}
+
+}  // namespace
+}  // namespace flexcast::test
