@@ -61,7 +61,11 @@ std::string range_text(const Descriptor& descriptor) {
   if (std::isinf(descriptor.minimum) && std::isinf(descriptor.maximum)) return "";
   const bool left_open = descriptor.minimum_open || std::isinf(descriptor.minimum);
   const bool right_open = descriptor.maximum_open || std::isinf(descriptor.maximum);
-  return (left_open ? "(" : "[") + number_text(descriptor.minimum) + ", " + number_text(descriptor.maximum) +
+  const auto bound = [&](double number) {
+    const bool whole = descriptor.kind == flexcast_VALUE_INTEGER && std::abs(number) < 9e15;
+    return whole ? std::to_string(static_cast<std::int64_t>(number)) : number_text(number);
+  };
+  return (left_open ? "(" : "[") + bound(descriptor.minimum) + ", " + bound(descriptor.maximum) +
          (right_open ? ")" : "]");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "idl/wire/fill.h"
@@ -37,6 +38,11 @@ std::string rate_text(double rate) {
   if (rate == 0.0) return "max";
   if (rate == 1.0) return "realtime";
   return fmt::format("{:g}x", rate);
+}
+
+// NaN marks what a scheme does not have.
+std::string number_text(double number, const char* unit = "") {
+  return std::isnan(number) ? "-" : fmt::format("{:.6g}{}", number, unit);
 }
 
 std::string vector_text(const double (&v)[3]) {
@@ -98,13 +104,14 @@ std::string status_text(const flexcast_Status& s) {
       {"rate", fmt::format("{}, real-time factor {:.3g}", rate_text(s.rate), s.real_time_factor)},
       {"a step takes", fmt::format("{:.3g} ms", 1e3 * s.step_seconds)},
       {"frames", fmt::format("{} published, {} skipped, {} readers", s.frames_published, s.frames_skipped, s.readers)},
-      {"energy", fmt::format("kinetic {:.6g} J, elastic {:.6g} J, gravity {:.6g} J, contact {:.6g} J", r.kinetic,
-                             r.elastic, r.gravity, r.contact)},
-      {"", fmt::format("work {:.6g} J, dissipated {:.6g} J, numerical {:.6g} J", r.work, r.dissipated, r.numerical)},
-      {"solver",
-       fmt::format("{} iterations, residual {:.3g}{}", r.iterations, r.residual, r.converged ? "" : ", NOT converged")},
-      {"stability margin", fmt::format("{:.3g}", r.stability_margin)},
-      {"elements", fmt::format("{} inverted, smallest J {:.3g}", r.inverted, r.min_j)}};
+      {"energy", fmt::format("kinetic {}, elastic {}, gravity {}, contact {}", number_text(r.kinetic, " J"),
+                             number_text(r.elastic, " J"), number_text(r.gravity, " J"), number_text(r.contact, " J"))},
+      {"", fmt::format("work {}, dissipated {}, numerical {}", number_text(r.work, " J"),
+                       number_text(r.dissipated, " J"), number_text(r.numerical, " J"))},
+      {"solver", fmt::format("{} iterations, residual {}{}", r.iterations, number_text(r.residual),
+                             r.converged ? "" : ", NOT converged")},
+      {"stability margin", number_text(r.stability_margin)},
+      {"elements", fmt::format("{} inverted, smallest J {}", r.inverted, number_text(r.min_j))}};
   if (s.state == flexcast_WORLD_FAILED) add_failure(rows, s.failure);
   for (const auto& p : elements(s.probes))
     rows.push_back({fmt::format("probe {}", text(p.name)),

@@ -56,7 +56,8 @@ LinearResult LdltSolver::solve(const BlockMatrix& A, const VecX& b, VecX& x) {
   factor_->fill(A);
   factor_->ldlt.factorize(factor_->lower);
   LinearResult result;
-  result.positive_definite = factor_->ldlt.info() == Eigen::Success && factor_->ldlt.vectorD().minCoeff() > 0.0;
+  // Asked entry by entry: comparisons with NaN are false.
+  result.positive_definite = factor_->ldlt.info() == Eigen::Success && (factor_->ldlt.vectorD().array() > 0.0).all();
   if (result.positive_definite) x = factor_->ldlt.solve(b);
   return result;
 }

@@ -22,10 +22,10 @@ class [[nodiscard]] Result {
   bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  T& value() & { return assert(ok()), *std::get_if<0>(&content_); }
-  const T& value() const& { return assert(ok()), *std::get_if<0>(&content_); }
-  T&& value() && { return assert(ok()), std::move(*std::get_if<0>(&content_)); }
-  const Error& error() const { return assert(!ok()), *std::get_if<1>(&content_); }
+  T& value() & { return assert(ok()), std::get<0>(content_); }
+  const T& value() const& { return assert(ok()), std::get<0>(content_); }
+  T&& value() && { return assert(ok()), std::get<0>(std::move(content_)); }
+  const Error& error() const { return assert(!ok()), std::get<1>(content_); }
 
  private:
   std::variant<T, Error> content_;

@@ -108,6 +108,12 @@ TEST(RangeText, SaysWhatIsAllowed) {
   d.maximum = std::numeric_limits<double>::infinity();
   d.minimum_open = true;
   EXPECT_EQ(range_text(d), "(0, inf)");
+  d.kind = flexcast_VALUE_INTEGER;
+  d.minimum = 1;
+  d.maximum = 1e6;
+  d.minimum_open = d.maximum_open = false;
+  EXPECT_EQ(range_text(d), "[1, 1000000]");
+  d.maximum = std::numeric_limits<double>::infinity();
   d.minimum = -d.maximum;
   EXPECT_EQ(range_text(d), "");
   d.kind = flexcast_VALUE_CHOICE;
