@@ -58,8 +58,7 @@ void World::begin_run() {
   chronicle_.begin_run({run_ids_.next(), 1, simulation_.settings().time.step, simulation_.settings().stream});
   next_frame_ = 0;
   wall_seconds_ = 0.0;
-  end_step_.reset();
-  if (options_.until) end_step_ = simulation_.step_at(*options_.until);
+  end_step_ = find_end_step();
   format_ = make_stream_format(simulation_.settings().stream);
   warnings_.clear();
   make_frame_due();
@@ -71,7 +70,13 @@ void World::begin_goal(const Command& command, std::int64_t step, const std::str
   const bool stood = !running();
   state_ = WorldState::running;
   chronicle_.note_command(moment(), command, text);
-  if (stood) chronicle_.note_state(moment(), text);
+  if (stood) chronicle_.note_state(moment(), "running");
+}
+
+std::optional<std::int64_t> World::find_end_step() const {
+  constexpr double never = 1e15;  // steps: too far to be counted
+  if (!options_.until || *options_.until / simulation_.settings().time.step > never) return std::nullopt;
+  return simulation_.step_at(*options_.until);
 }
 
 bool World::arrived() const {
@@ -94,7 +99,7 @@ void World::change_state(WorldState state, const std::string& text) {
 
 // What depends on the parameters, after they may have changed.
 void World::follow_parameters() {
-  if (end_step_) end_step_ = simulation_.step_at(*options_.until);
+  if (end_step_) end_step_ = find_end_step();
   if (goal_) {
     if (const auto* run = std::get_if<RunUntilCommand>(&goal_->command.body)) {
       goal_->step = simulation_.step_at(run->time);

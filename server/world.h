@@ -25,7 +25,7 @@ namespace flexcast::server {
 struct WorldOptions {
   double rate = 1.0;  // simulated seconds per wall second; 0: as fast as possible
   bool paused = false;
-  std::optional<double> until;  // s
+  std::optional<double> until = {};  // s
 };
 
 class World {
@@ -81,6 +81,7 @@ class World {
   void change_state(WorldState state, const std::string& text);
   void fail();
   void follow_parameters();
+  std::optional<std::int64_t> find_end_step() const;
   bool at_end() const { return end_step_ && simulation_.state().step >= *end_step_; }
   bool arrived() const;  // at the goal; without one at the end
   void make_frame_due();

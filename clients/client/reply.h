@@ -11,7 +11,7 @@ namespace flexcast::client {
 
 struct Reply {
   flexcast_CommandKind kind = flexcast_COMMAND_STATUS;
-  flexcast_Outcome outcome = flexcast_OUTCOME_REJECTED;
+  flexcast_ReplyOutcome outcome = flexcast_OUTCOME_REJECTED;
   std::string reason{};  // "" when applied
   std::uint64_t run_id = 0;
   std::uint64_t applied_step = 0;                      // the command acted between this step and the next

@@ -108,7 +108,7 @@ Json to_json(const flexcast_Status& s) {
             {"server_id", s.server_id},
             {"version", string_of(s.version)},
             {"report", to_json(s.report)}};
-  if (s.state == flexcast_WORLD_FAILED) json["failure"] = to_json(s.failure);
+  if (s.state == flexcast_WORLD_FAILED) json["failure"] = to_json(s.trouble);
   json["probes"] = json["handles"] = Json::object();
   for (const auto& p : elements(s.probes))
     json["probes"][string_of(p.name)] = {{"position", p.position}, {"velocity", p.velocity}};

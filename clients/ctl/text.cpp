@@ -112,7 +112,7 @@ std::string status_text(const flexcast_Status& s) {
                              r.converged ? "" : ", NOT converged")},
       {"stability margin", number_text(r.stability_margin)},
       {"elements", fmt::format("{} inverted, smallest J {}", r.inverted, number_text(r.min_j))}};
-  if (s.state == flexcast_WORLD_FAILED) add_failure(rows, s.failure);
+  if (s.state == flexcast_WORLD_FAILED) add_failure(rows, s.trouble);
   for (const auto& p : elements(s.probes))
     rows.push_back({fmt::format("probe {}", text(p.name)),
                     fmt::format("{} m, {} m/s", vector_text(p.position), vector_text(p.velocity))});

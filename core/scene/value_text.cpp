@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t longest = 60;
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (char c : text) {
     const bool between_characters = (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // UTF-8
@@ -46,7 +46,7 @@ std::string count_text(double count) {
 std::string to_text(const toml::node& value) {
   if (const auto* number = value.as_floating_point()) return number_text(number->get());
   if (const auto* number = value.as_integer()) return std::to_string(number->get());
-  if (const auto* text = value.as_string()) return quoted(text->get());
+  if (const auto* text = value.as_string()) return in_quotes(text->get());
   if (const auto* flag = value.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* array = value.as_array()) return array_text(*array);
   if (const auto* table = value.as_table()) return table->empty() ? "{}" : "{...}";

@@ -31,7 +31,7 @@ std::string_view name_of(flexcast_WorldState state) {
 std::string_view name_of(flexcast_CommandKind kind) {
   return pick(command_kinds, kind);
 }
-std::string_view name_of(flexcast_Outcome outcome) {
+std::string_view name_of(flexcast_ReplyOutcome outcome) {
   return pick(outcomes, outcome);
 }
 std::string_view name_of(flexcast_EventKind kind) {

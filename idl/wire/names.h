@@ -11,7 +11,7 @@ namespace flexcast::wire {
 std::string_view name_of(flexcast_ValueKind kind);
 std::string_view name_of(flexcast_WorldState state);
 std::string_view name_of(flexcast_CommandKind kind);
-std::string_view name_of(flexcast_Outcome outcome);
+std::string_view name_of(flexcast_ReplyOutcome outcome);
 std::string_view name_of(flexcast_EventKind kind);
 std::string_view name_of(flexcast_RecorderState state);
 std::string_view name_of(flexcast_RecorderCommandKind kind);

@@ -13,8 +13,8 @@ inline flexcast_WorldState to_wire(WorldState state) {
 inline flexcast_CommandKind to_wire(CommandKind kind) {
   return static_cast<flexcast_CommandKind>(kind);
 }
-inline flexcast_Outcome to_wire(Outcome outcome) {
-  return static_cast<flexcast_Outcome>(outcome);
+inline flexcast_ReplyOutcome to_wire(Outcome outcome) {
+  return static_cast<flexcast_ReplyOutcome>(outcome);
 }
 inline flexcast_EventKind to_wire(EventKind kind) {
   return static_cast<flexcast_EventKind>(kind);

@@ -18,7 +18,7 @@ wire::Owned<flexcast_Event> to_wire(const Event& event, std::string_view world) 
   message->parameter_revision = event.parameter_revision;
   wire::set_string(message->client_id, event.key.client_id);
   message->request_id = event.key.request_id;
-  message->command = to_wire(event.command);
+  message->command_kind = to_wire(event.command);
   to_wire(std::span<const ParameterAssignment>(event.values), message->values);
   message->keep_parameters = event.keep_parameters;
   wire::set_string(message->text, event.text);

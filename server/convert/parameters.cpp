@@ -13,6 +13,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 Result<ParameterValue> value_from_wire(const flexcast_ParameterValue& message, const std::string& name) {
   const auto numbers = wire::elements(message.numbers);

@@ -79,7 +79,7 @@ wire::Owned<flexcast_Status> to_wire(const WorldStatus& status, const DeliverySt
   message->topology_revision = status.topology_revision;
   message->server_id = identity.server_id;
   wire::set_string(message->version, FLEXCAST_VERSION);
-  fill_failure(status.failure.value_or(Failure{}), message->failure);
+  fill_failure(status.failure.value_or(Failure{}), message->trouble);
   const auto probes = wire::resize(message->probes, status.probes.size());
   for (std::size_t i = 0; i < probes.size(); ++i) {
     wire::set_string(probes[i].name, status.probes[i].name);

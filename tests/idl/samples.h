@@ -98,8 +98,8 @@ inline void fill(flexcast_Status& status) {
   status.heartbeat = 99;
   fill(status.report);
   status.server_id = 5;
-  wire::set_string(status.failure.cause, "inverted");
-  status.failure.element = -1;
+  wire::set_string(status.trouble.cause, "inverted");
+  status.trouble.element = -1;
   wire::set_string(wire::resize(status.probes, 1)[0].name, "tip");
   wire::set_string(wire::resize(status.handles, 1)[0].name, "grip");
   wire::set_strings(status.warnings, std::array<std::string, 1>{"too stiff"});

@@ -11,6 +11,8 @@ namespace {
 thread_local std::size_t allocations = 0;
 }
 
+// Counts what this thread allocates; the address sanitizer has its own operators.
+#ifndef __SANITIZE_ADDRESS__
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -22,6 +24,7 @@ thread_local std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+#endif
 
 namespace flexcast::server {
 namespace {

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
@@ -133,7 +134,7 @@ inline void Process::become(char* const* argv, const std::array<int, 2>& streams
 inline Process::~Process() {
   send(SIGKILL);
   wait(std::chrono::hours(1));
-  if (!testing::Test::HasFailure()) return;
+  if (!testing::Test::HasFailure() && std::uncaught_exceptions() == 0) return;
   std::cerr << "---- " << command_ << "\n---- ended with " << *status_ << ", standard output:\n"
             << texts_[0] << "---- standard error:\n"
             << texts_[1] << "----\n";

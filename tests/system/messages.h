@@ -107,7 +107,7 @@ struct ReplyMessage {
   std::string world, client_id;
   std::uint64_t request_id;
   flexcast_CommandKind kind;
-  flexcast_Outcome outcome;
+  flexcast_ReplyOutcome outcome;
   std::string reason;
   std::uint64_t run_id, applied_step;
 };

@@ -95,7 +95,7 @@ std::vector<FrameMessage> Recording::frames_of(std::uint64_t run_id) const {
 std::vector<EventMessage> Recording::command_events(flexcast_CommandKind command) const {
   std::vector<EventMessage> chosen;
   std::copy_if(events.begin(), events.end(), std::back_inserter(chosen), [&](const EventMessage& event) {
-    return event.kind == flexcast_EVENT_COMMAND && event.command == command;
+    return event.kind == flexcast_EVENT_COMMAND && event.command_kind == command;
   });
   return chosen;
 }

@@ -45,6 +45,7 @@ TEST_F(RecordingSystem, TwoThousandStepsWithoutAGapEqualAHeadlessRun) {
   const auto server = start_server(scene, {"--paused", "--rate", "0.5"});
   auto connection = connect();
   const auto recorder = start_recorder("run.mcap", {"--frames", "2001"});
+  wait_for_frames(1);  // the initial state is there
   const auto reply = applied(connection.step(2000, patience));
   EXPECT_EQ(reply.applied_step, 2000U);
   EXPECT_EQ(reply.state, flexcast_WORLD_PAUSED);
@@ -64,10 +65,20 @@ TEST_F(RecordingSystem, TwoThousandStepsWithoutAGapEqualAHeadlessRun) {
 
   const Ended lab = run("flexcast-lab", {"run", scene.string(), "--steps", "2000", "--json"});
   ASSERT_EQ(lab.code, 0) << lab.err;
-  const Json hash = Json::parse(lab.out)["state_hash"];
-  const std::uint64_t value =
-      hash.is_string() ? std::stoull(hash.get<std::string>(), nullptr, 16) : hash.get<std::uint64_t>();
-  EXPECT_EQ(value, recording.frames.back().state_hash);
+  const std::string hash = Json::parse(lab.out)["state_hash"];  // 16 hexadecimal digits
+  EXPECT_EQ(std::stoull(hash, nullptr, 16), recording.frames.back().state_hash);
+}
+
+TEST_F(RecordingSystem, RecorderThatSaysItRecordsMissesNothingOfAPausedWorldNotEvenTheInitialState) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--paused", "--rate", "0.5"});
+  auto connection = connect();
+  const auto recorder = start_recorder("run.mcap");
+  applied(connection.step(20, patience));
+  wait_for_recorder([](const auto& info) { return info.next_frame == 21; });
+  EXPECT_EQ(end_recorder(*recorder)["runs"][0]["joined_at"], 0);
+  const Recording recording = read_recording(path("run.mcap"));
+  EXPECT_EQ(recording.frames.size(), 21U);
+  expect_contiguous(recording.frames, 0);
 }
 
 TEST_F(RecordingSystem, ResetStartsANewRunAtStepZeroWithTheBitsOfTheFirst) {
@@ -75,6 +86,7 @@ TEST_F(RecordingSystem, ResetStartsANewRunAtStepZeroWithTheBitsOfTheFirst) {
   const auto server = start_server(scene, {"--paused", "--rate", "0.5"});
   auto connection = connect();
   const auto recorder = start_recorder("run.mcap");
+  wait_for_frames(1);
   applied(connection.resume());
   wait_for_frames(100);
   const auto set = applied(connection.set({{"rope.stiffness", 20.0}}));
@@ -84,7 +96,7 @@ TEST_F(RecordingSystem, ResetStartsANewRunAtStepZeroWithTheBitsOfTheFirst) {
   EXPECT_EQ(reset.applied_step, 0U);
   EXPECT_EQ(reset.time, 0.0);
   wait_for_recorder([&](const auto& info) { return info.run_id == reset.run_id && info.next_frame > 300; });
-  applied(connection.set({{"rope.stiffness", 20.0}}));
+  const auto set_again = applied(connection.set({{"rope.stiffness", 20.0}}));
   const auto kept = applied(connection.reset(true));
   wait_for_recorder([&](const auto& info) { return info.run_id == kept.run_id && info.next_frame > 100; });
   EXPECT_EQ(end_recorder(*recorder)["gaps"], 0);
@@ -95,11 +107,9 @@ TEST_F(RecordingSystem, ResetStartsANewRunAtStepZeroWithTheBitsOfTheFirst) {
   const auto second = recording.frames_of(reset.run_id);
   const auto third = recording.frames_of(kept.run_id);
   for (const auto& run : {first, second, third}) expect_contiguous(run, 0);
-  const std::size_t common = std::min(set.applied_step + 1, second.size());
+  const std::size_t common = std::min(set.applied_step, set_again.applied_step) + 1;  // up to the first change
   ASSERT_GT(common, 100U);
   for (std::size_t k = 0; k < common; ++k) ASSERT_EQ(first[k].state_hash, second[k].state_hash) << "step " << k;
-  const std::size_t after = set.applied_step + 1;
-  if (after < second.size()) EXPECT_NE(first[after].state_hash, second[after].state_hash);
   const Change change{0, {{"rope.stiffness", 20.0}}};
   EXPECT_EQ(hashes_of(third), calc_hashes(scene, static_cast<std::int64_t>(third.size()) - 1, {change}));
 }
@@ -167,6 +177,7 @@ TEST_F(RecordingSystem, FramesOverOneMebibyteComeAsChunksThatCoverEveryParticleO
   const auto server = start_server(scene, {"--paused", "--rate", "0.01"});
   auto connection = connect();
   const auto recorder = start_recorder("sheet.mcap", {"--frames", "6"});
+  wait_for_frames(1);
   applied(connection.step(5, patience));
   const Json summary = await_recorder(*recorder);
   EXPECT_EQ(summary["gaps"], 0);

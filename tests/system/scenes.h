@@ -70,4 +70,23 @@ node = 10
 )";
 }
 
+// A sheet of (cells + 1)^2 particles at rest but for one corner: 12 bytes a particle on the wire.
+inline std::string sheet_scene(int cells) {
+  const std::string number = std::to_string(cells);
+  return R"(name = "sheet"
+[time]
+step = 0.001
+integrator = "symplectic_euler"
+
+[[body]]
+name = "sheet"
+model = "mass_spring"
+mesh = { shape = "grid", cells = [)" +
+         number + ", " + number + R"(], size = [3.0, 3.0] }
+springs = { stiffness = 1.0 }
+mass = 0.01
+velocity = [ { select = { box = [[0.0, 0.0, -1.0], [1.0, 1.0, 1.0]] }, value = [0.1, 0.2, 1.0] } ]
+)";
+}
+
 }  // namespace flexcast::test

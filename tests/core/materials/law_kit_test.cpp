@@ -48,7 +48,7 @@ std::vector<Mat3> make_gradients(int count) {
   std::vector<Mat3> gradients;
   int inverted = 0;
   while (gradients.size() < static_cast<std::size_t>(count)) {
-    const double size = gradients.size() % 2 == 0 ? 0.1 : 1.0;
+    const double size = gradients.size() % 2 == 0 ? 0.1 : 2.0;
     Mat3 F = Mat3::Identity() + make_random_matrix(random, size);
     if (gradients.size() % 7 == 3) F.col(2) = F.col(1);
     const Vec3 s = calc_singular_values(F);
@@ -89,7 +89,7 @@ TEST_P(LawKit, StressIsTheSlopeOfTheEnergy) {
       plus.data()[k] += step;
       minus.data()[k] -= step;
       const double slope = (calc_energy(law_, plus) - calc_energy(law_, minus)) / (2.0 * step);
-      EXPECT_NEAR(P.data()[k], slope, 1e-8 * stiffness);
+      EXPECT_NEAR(P.data()[k], slope, 1e-8 * std::max(stiffness, calc_energy(law_, F)));
     }
   }
 }

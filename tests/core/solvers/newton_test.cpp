@@ -59,7 +59,7 @@ TEST(Newton, SolvesAQuadraticInOneIteration) {
   for (const int iterations : {1, 20}) {
     VecX u = VecX::Zero(6);
     NewtonSolver solver(settings(iterations), 2);
-    const NewtonResult result = solver.minimize(problem, hessian, u);
+    const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
     EXPECT_EQ(result.iterations, 1);
     EXPECT_LE((u - problem.center).norm(), 1e-14 * problem.center.norm());
     EXPECT_LE(result.residual, 1e-13);
@@ -74,7 +74,7 @@ TEST(Newton, FindsMinimaFromWhereTheHessianIsIndefinite) {
   for (int k = 0; k < 20; ++k) {
     VecX u = make_random_vector(random, 6, 0.5);
     NewtonSolver solver(settings(100), 2);
-    const NewtonResult result = solver.minimize(problem, hessian, u);
+    const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
     EXPECT_TRUE(result.converged);
     EXPECT_LE((u.cwiseAbs() - VecX::Ones(6)).cwiseAbs().maxCoeff(), 1e-10);
   }
@@ -89,7 +89,7 @@ TEST(Newton, NeverGoesUphill) {
     for (int i = 0; i < 10; ++i) {
       const double before = problem.calc_value(u).value;
       NewtonSolver solver(settings(2, 1e-14), 2);
-      (void)solver.minimize(problem, hessian, u);
+      (void)solver.minimize(problem, hessian, VecX::Zero(6), u);
       EXPECT_LE(problem.calc_value(u).value, before + 1e-14);
     }
   }
@@ -100,7 +100,7 @@ TEST(Newton, SaysWhenItDidNotConverge) {
   BlockMatrix hessian(2, {});
   VecX u = VecX::Constant(6, 50.0);
   NewtonSolver solver(settings(2), 2);
-  const NewtonResult result = solver.minimize(problem, hessian, u);
+  const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
   EXPECT_FALSE(result.converged);
   EXPECT_GT(result.residual, 1e-12);
   EXPECT_LE(result.iterations, 2);

@@ -156,7 +156,7 @@ TEST(Events, CarryTheCommandThatMadeThem) {
   EXPECT_EQ(message->index, 4u);
   EXPECT_EQ(message->step, 5u);
   EXPECT_EQ(message->kind, flexcast_EVENT_COMMAND);
-  EXPECT_EQ(message->command, flexcast_COMMAND_RESET);
+  EXPECT_EQ(message->command_kind, flexcast_COMMAND_RESET);
   EXPECT_TRUE(message->keep_parameters);
   EXPECT_EQ(wire::text(message->client_id), "tester");
   EXPECT_EQ(message->values._length, 1u);
@@ -190,8 +190,8 @@ TEST(Statuses, JoinWhatWorldAndPublisherKnow) {
   const auto message =
       to_wire(status, {.heartbeat = 5, .frames_published = 6, .frame_queue = 2, .readers = 1}, {"rope", 77});
   EXPECT_EQ(message->state, flexcast_WORLD_FAILED);
-  EXPECT_EQ(wire::text(message->failure.cause), "a position");
-  EXPECT_EQ(message->failure.particle, 4);
+  EXPECT_EQ(wire::text(message->trouble.cause), "a position");
+  EXPECT_EQ(message->trouble.particle, 4);
   EXPECT_EQ(message->probes._buffer[0].velocity[2], 6.0);
   EXPECT_EQ(wire::text(message->warnings._buffer[0]), "careful");
   EXPECT_EQ(message->heartbeat, 5u);
