@@ -228,7 +228,7 @@ std::optional<std::vector<std::string>> TableReader::choices(std::string_view ke
 std::string TableReader::require_name(std::string_view key) const {
   const std::string allowed = "1 to 64 of A-Z, a-z, 0-9, _ and -";
   if (!has(key)) refuse_missing(key, "a name (" + allowed + ")");
-  const std::string value = *text(key);
+  std::string value = *text(key);
   if (!is_name(value)) refuse_value(key, "is not a name (allowed: " + allowed + ")");
   return value;
 }

@@ -1,5 +1,7 @@
 #include "core/solvers/newton.h"
 
+#include <cmath>
+
 namespace flexcast {
 
 // False: no descent direction could be found (something is not finite).
@@ -15,7 +17,10 @@ bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hes
     }
     const LinearResult linear = linear_->solve(hessian, right, direction_);
     result.linear_iterations += linear.iterations;
-    if (linear.positive_definite && direction_.dot(right) > 0.0) return true;
+    if (linear.positive_definite && direction_.dot(right) > 0.0) {
+      linear_converged_ = linear.converged;
+      return true;
+    }
   }
   return false;
 }
@@ -51,7 +56,11 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
     const double norm = gradient_.norm();
     result.residual = terms > 0.0 ? norm / terms : 0.0;
     result.converged = norm <= settings_.newton_tolerance * terms;
-    if (result.converged || result.iterations >= settings_.newton_iterations) return result;
+    if (result.converged) return result;
+    if (result.iterations >= settings_.newton_iterations) {
+      result.converged = settings_.newton_iterations == 1 && linear_converged_ && std::isfinite(result.residual);
+      return result;
+    }
     if (!find_direction(problem, hessian, guess, u, result)) return result;
     ++result.iterations;
     if (settings_.newton_iterations == 1) {

@@ -21,7 +21,7 @@ class MinimizationProblem {
 };
 
 struct NewtonResult {
-  bool converged = false;
+  bool converged = false;  // the tolerance was reached; with one iteration: the linear solve reached its own
   int iterations = 0;
   int linear_iterations = 0;
   double residual = 0.0;  // |gradient| / summed norms of its terms, at the end
@@ -33,8 +33,9 @@ class NewtonSolver {
   NewtonSolver(const SolverSettings& settings, std::int64_t particles)
       : settings_(settings), linear_(make_linear_solver(settings, particles)) {}
 
-  // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it takes the full Newton step, without a search: the linearly
-  // implicit schemes. A hessian that turns out indefinite is replaced by its positive definite neighbour.
+  // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it
+  // takes the full Newton step, without a search: the linearly implicit schemes. `residual` then says how far from the
+  // nonlinear solution that ends. A hessian that turns out indefinite is replaced by its positive definite neighbour.
   NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u);
 
  private:
@@ -45,6 +46,7 @@ class NewtonSolver {
   SolverSettings settings_;
   std::unique_ptr<LinearSolver> linear_;
   VecX gradient_, trial_gradient_, direction_, trial_;
+  bool linear_converged_ = false;
 };
 
 }  // namespace flexcast

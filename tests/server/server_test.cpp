@@ -115,8 +115,8 @@ class Client {
       auto samples = events_.take();
       for (auto [event, info] : samples.value()) {
         if (!info.valid || event.kind != flexcast_EVENT_COMMAND || marked) continue;
-        count += event.command == kind ? 1 : 0;
-        marked = event.command == marker;
+        count += event.command_kind == kind ? 1 : 0;
+        marked = event.command_kind == marker;
       }
       return marked;
     });
