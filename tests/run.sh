@@ -8,7 +8,8 @@ source server/setup.sh
 install_packages build tests
 (cd tests/interop && npm ci --no-audit --no-fund --loglevel=error)
 
-# Sanitizers on unoptimised code would double the time; -O1 keeps their reports readable.
+# The test programs alone, without the reference cases, which would take too long: tests of this build take the name
+# sanitized.PROGRAM below.
 build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_C_FLAGS_DEBUG="-O1 -g1" \
   -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF
 build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize"

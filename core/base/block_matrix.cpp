@@ -26,7 +26,9 @@ BlockMatrix::BlockMatrix(std::int32_t rows, std::vector<std::pair<std::int32_t, 
   blocks_.assign(columns_.size(), Mat3::Zero());
 }
 
-void BlockMatrix::set_zero() { std::fill(blocks_.begin(), blocks_.end(), Mat3::Zero()); }
+void BlockMatrix::set_zero() {
+  std::fill(blocks_.begin(), blocks_.end(), Mat3::Zero());
+}
 
 std::int64_t BlockMatrix::find(std::int32_t i, std::int32_t j) const {
   const auto begin = columns_.begin() + starts_[i], end = columns_.begin() + starts_[i + 1];

@@ -18,8 +18,12 @@ using Triangle = std::array<std::int32_t, 3>;
 using Spring = std::array<std::int32_t, 2>;
 
 // The particle's three entries of a flat per-particle vector.
-inline auto block3(VecX& v, std::int64_t particle) { return v.segment<3>(3 * particle); }
-inline auto block3(const VecX& v, std::int64_t particle) { return v.segment<3>(3 * particle); }
+inline auto block3(VecX& v, std::int64_t particle) {
+  return v.segment<3>(3 * particle);
+}
+inline auto block3(const VecX& v, std::int64_t particle) {
+  return v.segment<3>(3 * particle);
+}
 
 // A run of consecutive indices.
 struct IndexRange {

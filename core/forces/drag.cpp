@@ -28,13 +28,12 @@ class Drag final : public Force {
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override {
     const auto masses = model_.masses.segment(body_.particles.first, body_.particles.count);
-    return {0.0, body_.mass_damping + body_.drag / masses.minCoeff(), body_.mass_damping + body_.drag / masses.maxCoeff()};
+    return {0.0, body_.mass_damping + body_.drag / masses.minCoeff(),
+            body_.mass_damping + body_.drag / masses.maxCoeff()};
   }
 
  private:
-  double coefficient(std::int64_t particle) const {
-    return body_.mass_damping * model_.masses[particle] + body_.drag;
-  }
+  double coefficient(std::int64_t particle) const { return body_.mass_damping * model_.masses[particle] + body_.drag; }
 
   const Model& model_;
   const Body& body_;

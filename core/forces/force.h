@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/forces/model.h"
 #include "core/base/block_matrix.h"
+#include "core/forces/model.h"
 
 namespace flexcast {
 
@@ -17,9 +17,9 @@ enum class EnergyKind { none, elastic, gravity, external };
 // Bounds for the modes of a body, linearised: none is faster, and at that frequency the damping rate 2 zeta omega is
 // between the two.
 struct ModeBound {
-  double omega_squared = 0.0;         // 1/s^2
-  double damping_rate = 0.0;          // 1/s
-  double least_damping_rate = 0.0;    // 1/s
+  double omega_squared = 0.0;       // 1/s^2
+  double damping_rate = 0.0;        // 1/s
+  double least_damping_rate = 0.0;  // 1/s
 };
 
 class Force {

@@ -1,12 +1,12 @@
 #include "core/forces/model.h"
 
-
 namespace flexcast {
 
 void update_masses(Model& model) {
   model.masses = VecX::Zero(model.particle_count());
   for (const Body& body : model.bodies) {
-    if (!body.is_fem()) model.masses.segment(body.particles.first, body.particles.count).setConstant(body.particle_mass);
+    if (!body.is_fem())
+      model.masses.segment(body.particles.first, body.particles.count).setConstant(body.particle_mass);
     for (std::int32_t t = body.tetrahedra.first; t < body.tetrahedra.end(); ++t) {
       const Tetrahedron& nodes = model.tetrahedra[t];
       const Vec3 X0 = block3(model.rest_positions, nodes[0]);

@@ -37,9 +37,9 @@ struct Body {
   double particle_mass = 0.0;  // kg
 
   // either
-  double mass_damping = 0.0;                  // alpha, 1/s
-  double drag = 0.0;                          // N.s/m a particle
-  std::vector<ParticleMass> mass_overrides;   // later ones win
+  double mass_damping = 0.0;                 // alpha, 1/s
+  double drag = 0.0;                         // N.s/m a particle
+  std::vector<ParticleMass> mass_overrides;  // later ones win
 
   bool is_fem() const { return law != nullptr; }
 };

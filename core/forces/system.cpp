@@ -68,7 +68,9 @@ double System::calc_energy(EnergyKind kind, const VecX& x) const {
   return energy;
 }
 
-double System::calc_kinetic(const VecX& v) const { return 0.5 * v.dot(dof_masses_.cwiseProduct(v)); }
+double System::calc_kinetic(const VecX& v) const {
+  return 0.5 * v.dot(dof_masses_.cwiseProduct(v));
+}
 
 double System::calc_position_dependent_energy(const VecX& x) const {
   double energy = 0.0;

@@ -18,9 +18,9 @@ class System {
   void refresh();
 
   std::int64_t dofs() const { return inverse_masses_.size(); }
-  const VecX& masses() const { return dof_masses_; }             // kg, 3 n
-  const VecX& inverse_masses() const { return inverse_masses_; } // 1/kg, 3 n, 0 where held
-  const VecX& free() const { return free_; }                     // 3 n: 1 where free, 0 where held
+  const VecX& masses() const { return dof_masses_; }              // kg, 3 n
+  const VecX& inverse_masses() const { return inverse_masses_; }  // 1/kg, 3 n, 0 where held
+  const VecX& free() const { return free_; }                      // 3 n: 1 where free, 0 where held
   bool has_damping() const { return has_damping_; }
 
   // f = ..., at every particle, held or not.

@@ -38,8 +38,7 @@ class IncrementalPotential final : public MinimizationProblem {
       calc_damping(u);
       dissipation = -0.5 * damping_.dot(u);
     }
-    return {kinetic + elastic + constant + dissipation,
-            kinetic + std::abs(elastic) + std::abs(constant) + dissipation};
+    return {kinetic + elastic + constant + dissipation, kinetic + std::abs(elastic) + std::abs(constant) + dissipation};
   }
 
   double calc_gradient(const VecX& u, VecX& gradient) override {
@@ -106,7 +105,10 @@ class BackwardEuler final : public Integrator {
 }  // namespace
 
 const IntegratorRow backward_euler_row{
-    "backward_euler", "implicit: stable at any step, damps what it does not resolve", 1, true,
+    "backward_euler",
+    "implicit: stable at any step, damps what it does not resolve",
+    1,
+    true,
     [](double, double) { return std::numeric_limits<double>::infinity(); },
     [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
       return std::make_unique<BackwardEuler>(system, settings);

@@ -26,8 +26,13 @@ double calc_stable_step(double omega, double c) {
 
 }  // namespace
 
-const IntegratorRow forward_euler_row{
-    "forward_euler", "explicit, for comparison: unstable without damping", 1, false, calc_stable_step,
-    [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<ForwardEuler>(); }};
+const IntegratorRow forward_euler_row{"forward_euler",
+                                      "explicit, for comparison: unstable without damping",
+                                      1,
+                                      false,
+                                      calc_stable_step,
+                                      [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
+                                        return std::make_unique<ForwardEuler>();
+                                      }};
 
 }  // namespace flexcast

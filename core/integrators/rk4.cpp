@@ -52,7 +52,11 @@ double calc_stable_step(double omega, double c) {
 }  // namespace
 
 const IntegratorRow rk4_row{
-    "rk4", "explicit, fourth order, four force evaluations a step", 4, false, calc_stable_step,
+    "rk4",
+    "explicit, fourth order, four force evaluations a step",
+    4,
+    false,
+    calc_stable_step,
     [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<Rk4>(); }};
 
 }  // namespace flexcast

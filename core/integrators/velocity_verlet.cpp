@@ -57,10 +57,13 @@ double calc_stable_step(double omega, double c) {
 
 }  // namespace
 
-const IntegratorRow velocity_verlet_row{
-    "velocity_verlet", "explicit, second order; damping from the half-step velocity", 2, false, calc_stable_step,
-    [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
-      return std::make_unique<VelocityVerlet>();
-    }};
+const IntegratorRow velocity_verlet_row{"velocity_verlet",
+                                        "explicit, second order; damping from the half-step velocity",
+                                        2,
+                                        false,
+                                        calc_stable_step,
+                                        [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
+                                          return std::make_unique<VelocityVerlet>();
+                                        }};
 
 }  // namespace flexcast

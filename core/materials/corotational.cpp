@@ -54,8 +54,8 @@ void calc_tangent(Lame lame, Tangent kind, std::span<const Mat3> F, std::span<Ma
 
 }  // namespace
 
-const Law corotational_law{
-    "corotational", "strain in the turned frame of each element, exact rotation", false, calc_energy, calc_stress,
-    calc_tangent};
+const Law corotational_law{"corotational", "strain in the turned frame of each element, exact rotation",
+                           false,          calc_energy,
+                           calc_stress,    calc_tangent};
 
 }  // namespace flexcast

@@ -5,7 +5,9 @@
 namespace flexcast {
 namespace {
 
-Mat3 calc_strain(const Mat3& F) { return 0.5 * (F + F.transpose()) - Mat3::Identity(); }
+Mat3 calc_strain(const Mat3& F) {
+  return 0.5 * (F + F.transpose()) - Mat3::Identity();
+}
 
 void calc_energy(Lame lame, std::span<const Mat3> F, std::span<double> Psi) {
   for (std::size_t i = 0; i < F.size(); ++i) Psi[i] = calc_hooke_energy(lame, calc_strain(F[i]));

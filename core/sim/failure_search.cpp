@@ -6,7 +6,9 @@
 namespace flexcast {
 namespace {
 
-bool is_good(double value) { return std::abs(value) <= largest_magnitude; }  // false for NaN
+bool is_good(double value) {
+  return std::abs(value) <= largest_magnitude;
+}  // false for NaN
 
 std::int64_t find_bad_particle(const State& state) {
   for (std::int64_t i = 0; i < state.positions.size(); ++i) {

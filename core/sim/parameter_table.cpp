@@ -26,7 +26,15 @@ ParameterRow settings_row(std::string_view name, Kind kind, std::string_view uni
                           std::string_view description, Field field) {
   using Value = std::remove_reference_t<decltype(field(std::declval<Settings&>()))>;
   using Stored = std::conditional_t<std::is_same_v<Value, int>, std::int64_t, Value>;
-  return {Scope::scene, name, name, kind, unit, range, {}, true, description,
+  return {Scope::scene,
+          name,
+          name,
+          kind,
+          unit,
+          range,
+          {},
+          true,
+          description,
           [field](const Model&, const Settings& settings, std::size_t) -> ParameterValue {
             return static_cast<Stored>(field(const_cast<Settings&>(settings)));
           },
@@ -36,8 +44,16 @@ ParameterRow settings_row(std::string_view name, Kind kind, std::string_view uni
 }
 
 ParameterRow body_row(Scope scope, std::string_view name, std::string_view scene_key, std::string_view unit,
-                      Range range, std::string_view description, double Body::* field) {
-  return {scope, name, scene_key, Kind::number, unit, range, {}, true, description,
+                      Range range, std::string_view description, double Body::*field) {
+  return {scope,
+          name,
+          scene_key,
+          Kind::number,
+          unit,
+          range,
+          {},
+          true,
+          description,
           [field](const Model& model, const Settings&, std::size_t body) -> ParameterValue {
             return model.bodies[body].*field;
           },
@@ -47,12 +63,18 @@ ParameterRow body_row(Scope scope, std::string_view name, std::string_view scene
 }
 
 ParameterRow gravity_row() {
-  return {Scope::scene, "gravity", "gravity", Kind::vector, "m/s^2", ranges::any, {}, true,
-          "acceleration of everything that has mass",
-          [](const Model& model, const Settings&, std::size_t) -> ParameterValue { return model.gravity; },
-          [](Model& model, Settings&, std::size_t, const ParameterValue& value) {
-            model.gravity = std::get<Vec3>(value);
-          }};
+  return {
+      Scope::scene,
+      "gravity",
+      "gravity",
+      Kind::vector,
+      "m/s^2",
+      ranges::any,
+      {},
+      true,
+      "acceleration of everything that has mass",
+      [](const Model& model, const Settings&, std::size_t) -> ParameterValue { return model.gravity; },
+      [](Model& model, Settings&, std::size_t, const ParameterValue& value) { model.gravity = std::get<Vec3>(value); }};
 }
 
 ParameterRow with_choices(ParameterRow row, std::vector<std::string> choices) {
@@ -65,15 +87,16 @@ std::vector<ParameterRow> make_rows() {
   rows.push_back(gravity_row());
   rows.push_back(settings_row("time.step", Kind::number, "s", ranges::positive, "time that one step covers",
                               [](Settings& s) -> double& { return s.time.step; }));
-  rows.push_back(with_choices(settings_row("time.integrator", Kind::choice, "", ranges::any, "scheme that takes the steps",
-                                           [](Settings& s) -> std::string& { return s.time.integrator; }),
-                              integrator_names()));
+  rows.push_back(
+      with_choices(settings_row("time.integrator", Kind::choice, "", ranges::any, "scheme that takes the steps",
+                                [](Settings& s) -> std::string& { return s.time.integrator; }),
+                   integrator_names()));
   rows.push_back(settings_row("time.substeps", Kind::integer, "", count, "integrator steps per step",
                               [](Settings& s) -> int& { return s.time.substeps; }));
-  rows.push_back(with_choices(settings_row("solver.linear", Kind::choice, "", ranges::any,
-                                           "linear solver of implicit schemes",
-                                           [](Settings& s) -> std::string& { return s.solver.linear; }),
-                              {"auto", "pcg", "ldlt"}));
+  rows.push_back(
+      with_choices(settings_row("solver.linear", Kind::choice, "", ranges::any, "linear solver of implicit schemes",
+                                [](Settings& s) -> std::string& { return s.solver.linear; }),
+                   {"auto", "pcg", "ldlt"}));
   rows.push_back(settings_row("solver.linear_tolerance", Kind::number, "", tolerance,
                               "relative residual at which pcg ends",
                               [](Settings& s) -> double& { return s.solver.linear_tolerance; }));
@@ -86,10 +109,10 @@ std::vector<ParameterRow> make_rows() {
   rows.push_back(settings_row("stream.every", Kind::integer, "", count, "publish every n-th step",
                               [](Settings& s) -> int& { return s.stream.every; }));
 
-  rows.push_back(body_row(Scope::fem_body, "young", "material.young", "Pa", ranges::positive, "Young's modulus",
-                          &Body::young));
-  rows.push_back(body_row(Scope::fem_body, "poisson", "material.poisson", "", ranges::poisson, "Poisson's ratio",
-                          &Body::poisson));
+  rows.push_back(
+      body_row(Scope::fem_body, "young", "material.young", "Pa", ranges::positive, "Young's modulus", &Body::young));
+  rows.push_back(
+      body_row(Scope::fem_body, "poisson", "material.poisson", "", ranges::poisson, "Poisson's ratio", &Body::poisson));
   rows.push_back(body_row(Scope::fem_body, "density", "material.density", "kg/m^3", ranges::positive, "density at rest",
                           &Body::density));
   rows.push_back(body_row(Scope::fem_body, "damping.stiffness", "damping.stiffness", "s", ranges::non_negative,
@@ -102,8 +125,8 @@ std::vector<ParameterRow> make_rows() {
                           &Body::particle_mass));
   rows.push_back(body_row(Scope::any_body, "damping.mass", "damping.mass", "1/s", ranges::non_negative,
                           "mass-proportional damping rate", &Body::mass_damping));
-  rows.push_back(body_row(Scope::any_body, "drag", "drag", "N.s/m", ranges::non_negative, "drag on every particle",
-                          &Body::drag));
+  rows.push_back(
+      body_row(Scope::any_body, "drag", "drag", "N.s/m", ranges::non_negative, "drag on every particle", &Body::drag));
   return rows;
 }
 

@@ -42,10 +42,14 @@ bool read_integer(std::string_view text, std::int64_t& value) {
 std::string expected_text(const ParameterRow& row) {
   const std::string unit = row.unit.empty() ? "" : " in " + std::string(row.unit);
   switch (row.kind) {
-    case ParameterKind::number: return "a number" + unit + ", " + row.range.text();
-    case ParameterKind::integer: return "an integer" + unit + ", " + row.range.text();
-    case ParameterKind::vector: return "three numbers" + unit + ", each " + row.range.text();
-    case ParameterKind::choice: break;
+    case ParameterKind::number:
+      return "a number" + unit + ", " + row.range.text();
+    case ParameterKind::integer:
+      return "an integer" + unit + ", " + row.range.text();
+    case ParameterKind::vector:
+      return "three numbers" + unit + ", each " + row.range.text();
+    case ParameterKind::choice:
+      break;
   }
   std::string text = "one of";
   for (std::size_t i = 0; i < row.choices.size(); ++i) text += (i ? ", " : " ") + row.choices[i];

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/math.h"
 #include "core/base/range.h"
 #include "core/base/result.h"
-#include "core/base/math.h"
 
 namespace flexcast {
 
@@ -30,9 +30,9 @@ struct ParameterRow {
   std::string_view scene_key;  // where the scene file has it: "time.step"; below the body: "material.young"
   ParameterKind kind = ParameterKind::number;
   std::string_view unit;
-  Range range;                 // numbers and integers; each component of vectors
+  Range range;  // numbers and integers; each component of vectors
   std::vector<std::string> choices;
-  bool live = true;            // false: fixed when the scene is loaded
+  bool live = true;  // false: fixed when the scene is loaded
   std::string_view description;
   std::function<ParameterValue(const Model&, const Settings&, std::size_t body)> get;
   std::function<void(Model&, Settings&, std::size_t body, const ParameterValue&)> set;

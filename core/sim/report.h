@@ -15,14 +15,14 @@ struct StepReport {
   double time = 0.0;  // s
   // J. gravity = -sum m g.x; work: of dead forces, and the jumps of live parameter changes; dissipated: by damping.
   double kinetic = 0.0, elastic = 0.0, gravity = 0.0, contact = 0.0, work = 0.0, dissipated = 0.0;
-  std::optional<double> numerical;            // J, the scheme's own loss; absent: not computed
-  Vec3 momentum = Vec3::Zero();               // kg.m/s
-  Vec3 angular_momentum = Vec3::Zero();       // kg.m^2/s, about the world's origin
+  std::optional<double> numerical;       // J, the scheme's own loss; absent: not computed
+  Vec3 momentum = Vec3::Zero();          // kg.m/s
+  Vec3 angular_momentum = Vec3::Zero();  // kg.m^2/s, about the world's origin
   StepStatistics statistics;
-  std::optional<double> error_estimate;       // absent: not computed
-  std::optional<double> stability_margin;     // stable step / step; absent for schemes without a limit
-  std::int64_t inverted = 0;                  // tetrahedra with J <= 0
-  std::optional<double> min_j;                // smallest det F; absent without tetrahedra
+  std::optional<double> error_estimate;    // absent: not computed
+  std::optional<double> stability_margin;  // stable step / step; absent for schemes without a limit
+  std::int64_t inverted = 0;               // tetrahedra with J <= 0
+  std::optional<double> min_j;             // smallest det F; absent without tetrahedra
 };
 
 // Per body, for those who ask.
@@ -37,12 +37,12 @@ struct BodyReport {
 // Why a step was refused. The state is the last good one.
 struct Failure {
   std::string cause;
-  std::string body;               // "" when no place can be named
-  std::int64_t element = -1;      // tetrahedron or spring of the body, -1: none
-  std::int64_t particle = -1;     // of the body, -1: none
-  Vec3 position = Vec3::Zero();   // m, of the particle or the element's first particle before the step
-  std::int64_t step = 0;          // the step that could not be taken
-  std::string suggestion;         // what to change
+  std::string body;              // "" when no place can be named
+  std::int64_t element = -1;     // tetrahedron or spring of the body, -1: none
+  std::int64_t particle = -1;    // of the body, -1: none
+  Vec3 position = Vec3::Zero();  // m, of the particle or the element's first particle before the step
+  std::int64_t step = 0;         // the step that could not be taken
+  std::string suggestion;        // what to change
 
   std::string text() const;  // all of it in one sentence
 };

@@ -10,10 +10,10 @@
 namespace flexcast {
 
 struct TimeSettings {
-  double step = 1e-3;                          // s, > 0
+  double step = 1e-3;  // s, > 0
   std::string integrator = "symplectic_euler";
-  int substeps = 1;                            // integrator steps per step
-  std::optional<double> duration;              // s; where a run without --until and --steps ends
+  int substeps = 1;                // integrator steps per step
+  std::optional<double> duration;  // s; where a run without --until and --steps ends
 };
 
 // The engine does not publish; it carries these for those who do.

@@ -99,8 +99,10 @@ void Simulation::note_failure() {
   const double limit = calc_stable_step();
   if (!row.implicit && settings_.time.step / settings_.time.substeps > limit) {
     char text[160];
-    std::snprintf(text, sizeof text, "the step is above the stable one: set time.step to at most %.3g s, or more "
-                  "time.substeps, or time.integrator to backward_euler", limit * settings_.time.substeps);
+    std::snprintf(text, sizeof text,
+                  "the step is above the stable one: set time.step to at most %.3g s, or more "
+                  "time.substeps, or time.integrator to backward_euler",
+                  limit * settings_.time.substeps);
     failure_->suggestion = text;
   } else {
     failure_->suggestion = "lower time.step or the stiffness, raise the damping, or reset";
@@ -206,8 +208,8 @@ std::vector<BodyReport> Simulation::calc_body_reports() const {
   std::vector<BodyReport> reports;
   for (const Body& body : model_->bodies) {
     const ElementHealth health = calc_element_health(*model_, body, state_.positions);
-    BodyReport report{body.name, body.particles.count, body.is_fem() ? body.tetrahedra.count : body.springs.count,
-                      health.min_j, health.inverted, Vec3::Zero()};
+    BodyReport report{body.name,    body.particles.count, body.is_fem() ? body.tetrahedra.count : body.springs.count,
+                      health.min_j, health.inverted,      Vec3::Zero()};
     double mass = 0.0;
     for (std::int64_t i = body.particles.first; i < body.particles.end(); ++i) {
       mass += model_->masses[i];
@@ -219,7 +221,9 @@ std::vector<BodyReport> Simulation::calc_body_reports() const {
   return reports;
 }
 
-std::uint64_t Simulation::calc_state_hash() const { return flexcast::calc_state_hash(state_); }
+std::uint64_t Simulation::calc_state_hash() const {
+  return flexcast::calc_state_hash(state_);
+}
 
 double Simulation::calc_stable_step() const {
   const IntegratorRow& row = *find_integrator(settings_.time.integrator);
@@ -246,8 +250,8 @@ std::vector<std::string> Simulation::calc_warnings() const {
   }
   for (const Body& body : model_->bodies) {
     if (body.is_fem() && body.poisson >= 0.45) {
-      warnings.push_back(body.name + ": linear tetrahedra lock towards poisson = 0.5 (now " +
-                         to_text(body.poisson) + "): the body is stiffer than its material");
+      warnings.push_back(body.name + ": linear tetrahedra lock towards poisson = 0.5 (now " + to_text(body.poisson) +
+                         "): the body is stiffer than its material");
     }
   }
   return warnings;

@@ -17,8 +17,8 @@ struct LinearResult {
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  // x: a guess on entry (iterative solvers start from it; of b's size), the solution on return. The pattern of A must be
-  // the same at every call.
+  // x: a guess on entry (iterative solvers start from it; of b's size), the solution on return. The pattern of A must
+  // be the same at every call.
   virtual LinearResult solve(const BlockMatrix& A, const VecX& b, VecX& x) = 0;
 };
 

@@ -5,8 +5,8 @@
 namespace flexcast {
 
 // False: no descent direction could be found (something is not finite).
-bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess,
-                                  const VecX& u, NewtonResult& result) {
+bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, const VecX& u,
+                                  NewtonResult& result) {
   const VecX right = -gradient_;
   for (const bool exact : {true, false}) {
     problem.calc_hessian(u, exact, hessian);

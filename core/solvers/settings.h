@@ -6,10 +6,10 @@
 namespace flexcast {
 
 struct SolverSettings {
-  std::string linear = "auto";      // auto | pcg | ldlt
-  double linear_tolerance = 1e-6;   // relative residual of the linear solver
-  int newton_iterations = 20;       // at most; 1: linearly implicit
-  double newton_tolerance = 1e-8;   // norm of the residual over the summed norms of its terms
+  std::string linear = "auto";     // auto | pcg | ldlt
+  double linear_tolerance = 1e-6;  // relative residual of the linear solver
+  int newton_iterations = 20;      // at most; 1: linearly implicit
+  double newton_tolerance = 1e-8;  // norm of the residual over the summed norms of its terms
 };
 
 }  // namespace flexcast

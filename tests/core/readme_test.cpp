@@ -33,8 +33,8 @@ TEST(Readme, ListsEveryParameterWithUnitRangeAndMeaning) {
 TEST(Readme, ListsEveryIntegratorWithItsOrder) {
   const std::string text = readme();
   for (const IntegratorRow& row : integrators()) {
-    const std::string line = "| `" + std::string(row.name) + "` | " + std::to_string(row.order) + " | " +
-                             std::string(row.summary) + " |";
+    const std::string line =
+        "| `" + std::string(row.name) + "` | " + std::to_string(row.order) + " | " + std::string(row.summary) + " |";
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
 }

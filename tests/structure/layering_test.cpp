@@ -37,8 +37,12 @@ const Arrows arrows = {
 
 // Headers of a library and the one folder that may see them.
 const std::map<std::string, std::string> owners = {
-    {R"(^(dds/|ddsc/|flexcast\.h))", "idl/wire"}, {R"(^toml)", "core/scene"},      {R"(^lz4)", "clients/mcap"},
-    {R"(^zstd)", "clients/mcap"},                 {R"(^zlib\.h)", "clients/mcap"}, {R"(^xxhash\.h)", "core/sim"},
+    {R"(^(dds/|ddsc/|flexcast\.h))", "idl/wire"},
+    {R"(^toml)", "core/scene"},
+    {R"(^lz4)", "clients/mcap"},
+    {R"(^zstd)", "clients/mcap"},
+    {R"(^zlib\.h)", "clients/mcap"},
+    {R"(^xxhash\.h)", "core/sim"},
 };
 
 struct Include {
@@ -123,7 +127,7 @@ TEST(Layering, OnlyConvertKnowsBothEngineAndWire) {
 }
 
 TEST(Layering, TheTopLevelHoldsNothingElse) {
-  const std::set<std::string> allowed = {"CMakeLists.txt", "server", "core",  "idl",
+  const std::set<std::string> allowed = {"CMakeLists.txt", "server", "core",      "idl",
                                          "clients",        "tests",  "README.md", "LICENSE"};
   for (const auto& entry : fs::directory_iterator(FLEXCAST_SOURCE_DIR)) {
     const std::string name = entry.path().filename();

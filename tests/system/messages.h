@@ -91,7 +91,7 @@ struct EventMessage {
   std::uint64_t parameter_revision;
   std::string client_id;
   std::uint64_t request_id;
-  flexcast_CommandKind command;
+  flexcast_CommandKind command_kind;
   std::vector<ParameterMessage> values;
   bool keep_parameters;
   std::string text;

@@ -168,12 +168,7 @@ TEST_F(RecordingSystem, LateRecorderGetsSceneTopologyAndParametersAndSaysWhereIt
 // Chunks of a frame of 301 x 301 particles, in float32 more than 1 MiB.
 TEST_F(RecordingSystem, FramesOverOneMebibyteComeAsChunksThatCoverEveryParticleOnce) {
   constexpr std::uint32_t particles = 301 * 301;
-  const auto scene =
-      write_file("sheet.toml",
-                 "name = \"sheet\"\n[time]\nstep = 0.001\n[[body]]\nname = \"sheet\"\nmodel = \"mass_spring\"\n"
-                 "mesh = { shape = \"grid\", cells = [300, 300], size = [3.0, 3.0] }\nsprings = { stiffness = 1.0 }\n"
-                 "mass = 0.01\nvelocity = [ { select = { box = [[0.0, 0.0, -1.0], [1.0, 1.0, 1.0]] }, value = [0.1, "
-                 "0.2, 1.0] } ]\n");
+  const auto scene = write_file("sheet.toml", sheet_scene(300));
   const auto server = start_server(scene, {"--paused", "--rate", "0.01"});
   auto connection = connect();
   const auto recorder = start_recorder("sheet.mcap", {"--frames", "6"});

@@ -114,6 +114,25 @@ TEST_P(SchemeKit, GivesTheSameBitsTwiceAndRemembersNothing) {
   }
 }
 
+TEST_P(SchemeKit, ForgetsWhatItIsToldIsVoid) {
+  Model model = make_fem_model();
+  update_masses(model);
+  State state = thrown(model, 24);
+  System system(model);
+  const auto integrator = row_.make(system, tight());
+  StepStatistics statistics;
+  for (int i = 0; i < 10; ++i) integrator->step(system, 1e-3, state, statistics);
+  model.bodies[0].young *= 2.0;
+  system.refresh();
+  state = thrown(model, 25);
+  integrator->invalidate();
+  State fresh = state;
+  for (int i = 0; i < 10; ++i) integrator->step(system, 1e-3, state, statistics);
+  run(model, fresh, 1e-3, 10);
+  EXPECT_EQ(state.positions, fresh.positions);
+  EXPECT_EQ(state.velocities, fresh.velocities);
+}
+
 TEST_P(SchemeKit, LeavesHeldParticlesWhereTheyAre) {
   Model model = make_fem_model();
   model.gravity = {0, 0, -9.81};

@@ -223,6 +223,23 @@ TEST(Simulation, ImplicitStepsReportConvergence) {
   }
 }
 
+// The step's equation is linear there, damping and all, so one iteration with the right matrix solves it.
+TEST(Simulation, ImplicitStepsOfALinearBodyTakeOneIteration) {
+  std::string text = two_bodies("backward_euler");
+  text.replace(text.find("corotational"), 12, "linear");
+  text.erase(text.rfind("[[body]]"));
+  const auto simulation = make(text);
+  ASSERT_TRUE(simulation
+                  ->set_parameters(std::vector<ParameterAssignment>{{"solver.newton_tolerance", 1e-10},
+                                                                    {"beam.damping.stiffness", 0.02}})
+                  .ok());
+  for (int i = 0; i < 10; ++i) {
+    run(*simulation, 1);
+    EXPECT_EQ(simulation->statistics().iterations, 1);
+    EXPECT_TRUE(simulation->statistics().converged);
+  }
+}
+
 TEST(Simulation, LockingIsWarnedOfFromPoissonPointFourFiveOn) {
   const auto simulation = make(two_bodies());
   EXPECT_TRUE(simulation->calc_warnings().empty());
