@@ -11,7 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t queue_bytes = std::size_t{256} << 20;
 constexpr auto match_period = 5ms;
-constexpr auto settle_time = 50ms;  // until the server surely knows of a match that is known here
+// Until the server surely knows of the match too, and a world that stands still has sent its newest frame again.
+constexpr auto settle_time = 300ms;
 
 // What can be said before there is anything to record.
 wire::Result<void> check_output(const Options& options) {

@@ -17,6 +17,9 @@ struct Change {
   std::vector<ParameterAssignment> values;
 };
 
+// The parameter changes that the recorded events tell of.
+std::vector<Change> changes_of(const std::vector<EventMessage>& set_events);
+
 // Visits the initial state and the state after each of `steps` steps.
 void replay(const std::filesystem::path& scene, std::int64_t steps, const std::vector<Change>& changes,
             const std::function<void(const Simulation&)>& visit);

@@ -169,7 +169,10 @@ Json end_recorder(Process& recorder, int signal) {
 }
 
 Json await_recorder(Process& recorder) {
-  return end_recorder(recorder, 0);  // signal 0 is none
+  if (!recorder.wait(patience)) {
+    throw std::runtime_error(recorder.command() + " waits for more and has this:\n" + end(recorder, SIGINT));
+  }
+  return end_recorder(recorder);
 }
 
 client::Reply applied(const client::Result<client::Reply>& reply) {

@@ -124,7 +124,9 @@ TEST_P(StableStep, IsNeverAboveTheTrueLimitAndNotFarBelow) {
     if (std::string_view(row.name) == "forward_euler") continue;
     double factor = 1.0;
     while (factor < 100.0 && is_stable(row.name, scene, factor * advertised)) factor *= 1.05;
-    EXPECT_LE(factor, 1.0 / 0.3) << "advertised " << advertised;
+    // The bound of omega^2 ignores the directions of springs: up to four times too large in a sheet. Where damping rules,
+    // the limit suffers from all of it. (The cases of the reference tests keep 0.3.)
+    EXPECT_LE(factor, 4.0) << "advertised " << advertised;
   }
 }
 
