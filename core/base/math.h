@@ -14,6 +14,7 @@ using Mat9 = Eigen::Matrix<double, 9, 9>;
 using VecX = Eigen::VectorXd;  // per-particle vectors are flat: x0, y0, z0, x1, ...
 
 using Tetrahedron = std::array<std::int32_t, 4>;
+using Midsides = std::array<std::int32_t, 6>;  // nodes amid a tetrahedron's edges 01, 02, 03, 12, 13, 23
 using Triangle = std::array<std::int32_t, 3>;
 using Spring = std::array<std::int32_t, 2>;
 

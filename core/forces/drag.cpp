@@ -13,15 +13,29 @@ class Drag final : public Force {
   bool has_damping() const override { return true; }
   void add_conservative(const VecX&, VecX&) const override {}
 
-  void add_damping(const VecX&, const VecX& v, VecX& f) const override {
+  double add_damping(const VecX&, const VecX& v, VecX& f) const override {
+    double power = 0.0;
     for (std::int64_t i = body_.particles.first; i < body_.particles.end(); ++i) {
-      block3(f, i) -= coefficient(i) * block3(v, i);
+      const Vec3 force = coefficient(i) * block3(v, i);
+      block3(f, i) -= force;
+      power += force.dot(block3(v, i));
     }
+    return power;
   }
 
   void add_damping_matrix(const VecX&, double scale, BlockMatrix& A) const override {
     for (std::int32_t i = body_.particles.first; i < body_.particles.end(); ++i) {
       A.add(i, i, scale * coefficient(i) * Mat3::Identity());
+    }
+  }
+
+  void add_damping_blocks(const VecX&, const VecX& v, double scale, std::span<const std::int32_t> particles,
+                          std::span<Vec3> f, std::span<Mat3> K) const override {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const std::int32_t particle = particles[i];
+      if (particle < body_.particles.first || particle >= body_.particles.end()) continue;
+      f[i] -= coefficient(particle) * block3(v, particle);
+      K[i].diagonal().array() += scale * coefficient(particle);
     }
   }
 

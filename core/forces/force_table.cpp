@@ -2,8 +2,10 @@
 
 #include <array>
 
+#include "core/forces/contact.h"
 #include "core/forces/dead_load.h"
 #include "core/forces/drag.h"
+#include "core/forces/grabs.h"
 #include "core/forces/gravity.h"
 #include "core/forces/springs.h"
 #include "core/forces/tetrahedra.h"
@@ -15,7 +17,9 @@ std::span<const ForceRow> force_rows() {
       ForceRow{"gravity", "weight of every particle", make_gravity},
       ForceRow{"dead_load", "forces of fixed direction on single particles", make_dead_load},
       ForceRow{"springs", "damped springs relative to their rest length", make_springs},
-      ForceRow{"tetrahedra", "linear tetrahedra of an elastic law, Kelvin-Voigt damping", make_tetrahedra},
+      ForceRow{"tetrahedra", "tetrahedra of an elastic law, Kelvin-Voigt damping", make_tetrahedra},
+      ForceRow{"contact", "solid planes, spheres and boxes, with friction", make_contact},
+      ForceRow{"grabs", "particles pulled to a target", make_grabs},
       ForceRow{"drag", "damping against the resting world", make_drag},
   };
   return table;

@@ -13,8 +13,13 @@ void update_masses(Model& model) {
       const Vec3 a = block3(model.rest_positions, nodes[1]) - X0;
       const Vec3 b = block3(model.rest_positions, nodes[2]) - X0;
       const Vec3 c = block3(model.rest_positions, nodes[3]) - X0;
-      const double quarter = body.density * a.dot(b.cross(c)) / 24.0;
-      for (const std::int32_t node : nodes) model.masses[node] += quarter;
+      const double mass = body.density * a.dot(b.cross(c)) / 6.0;
+      for (const std::int32_t node : nodes) model.masses[node] += mass / (body.is_quadratic() ? 36.0 : 4.0);
+      if (!body.is_quadratic()) continue;
+      const std::int32_t element = t - body.tetrahedra.first;
+      for (const std::int32_t node : model.midsides[body.midsides.first + element]) {
+        model.masses[node] += mass * 4.0 / 27.0;
+      }
     }
     for (const ParticleMass& single : body.mass_overrides) model.masses[single.particle] = single.value;
   }

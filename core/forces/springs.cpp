@@ -13,12 +13,18 @@ class Springs final : public Force {
   bool has_damping() const override { return body_.damping > 0.0; }
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
   void add_conservative(const VecX& x, VecX& f) const override;
-  void add_damping(const VecX& x, const VecX& v, VecX& f) const override;
-  void add_force(const VecX& x, const VecX& v, VecX& f) const override;
+  double add_damping(const VecX& x, const VecX& v, VecX& f) const override;
+  double add_force(const VecX& x, const VecX& v, VecX& f) const override;
   double calc_energy(const VecX& x) const override;
   void add_couplings(std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) const override;
   void add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const override;
   void add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const override;
+  void add_blocks(const VecX& x, std::span<const std::int32_t> particles, std::span<Vec3> f,
+                  std::span<Mat3> K) const override;
+  void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
+                          std::span<Vec3> f, std::span<Mat3> K) const override;
+  std::int64_t constraint_count() const override { return static_cast<std::int64_t>(elements_.size()); }
+  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override;
 
@@ -34,9 +40,15 @@ class Springs final : public Force {
     A.add(e.q, e.p, -block);
   }
 
+  // Calls visit(i, e, sign) for the springs of each listed particle of the body; sign = 1 at p, -1 at q.
+  template <class Visit>
+  void for_springs_at(std::span<const std::int32_t> particles, Visit visit) const;
+
   const Model& model_;
   const Body& body_;
   std::vector<Element> elements_;
+  // The springs that meet at a particle of the body, made when first asked for.
+  mutable std::vector<std::int32_t> meeting_starts_, meeting_;
 };
 
 Springs::Springs(const Model& model, std::size_t body) : model_(model), body_(model.bodies[body]) {
@@ -55,24 +67,32 @@ void Springs::add_conservative(const VecX& x, VecX& f) const {
   }
 }
 
-void Springs::add_damping(const VecX& x, const VecX& v, VecX& f) const {
-  for (const Element& e : elements_) {
-    const Vec3 d = block3(x, e.q) - block3(x, e.p);
-    const Vec3 force = calc_spring_damping_force(d, block3(v, e.q) - block3(v, e.p), e.r, body_.damping);
-    block3(f, e.p) += force;
-    block3(f, e.q) -= force;
-  }
-}
-
-void Springs::add_force(const VecX& x, const VecX& v, VecX& f) const {
-  if (!has_damping()) return add_conservative(x, f);
+double Springs::add_damping(const VecX& x, const VecX& v, VecX& f) const {
+  double power = 0.0;
   for (const Element& e : elements_) {
     const Vec3 d = block3(x, e.q) - block3(x, e.p);
     const Vec3 dv = block3(v, e.q) - block3(v, e.p);
-    const Vec3 force = calc_spring_force(d, dv, e.r, body_.stiffness, body_.damping);
+    const Vec3 force = calc_spring_damping_force(d, dv, e.r, body_.damping);
     block3(f, e.p) += force;
     block3(f, e.q) -= force;
+    power += force.dot(dv);
   }
+  return power;
+}
+
+double Springs::add_force(const VecX& x, const VecX& v, VecX& f) const {
+  if (!has_damping()) return add_conservative(x, f), 0.0;
+  double power = 0.0;
+  for (const Element& e : elements_) {
+    const SpringDirection direction = calc_spring_direction(block3(x, e.q) - block3(x, e.p));
+    const double rate = (block3(v, e.q) - block3(v, e.p)).dot(direction.n);
+    const double damping = body_.damping * rate / e.r;
+    const Vec3 force = (body_.stiffness * (direction.l / e.r - 1.0) + damping) * direction.n;
+    block3(f, e.p) += force;
+    block3(f, e.q) -= force;
+    power += damping * rate;
+  }
+  return power;
 }
 
 double Springs::calc_energy(const VecX& x) const {
@@ -99,6 +119,70 @@ void Springs::add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) co
   for (const Element& e : elements_) {
     const Vec3 n = calc_spring_direction(block3(x, e.q) - block3(x, e.p)).n;
     add_pair(e, scale * body_.damping / e.r * n * n.transpose(), A);
+  }
+}
+
+template <class Visit>
+void Springs::for_springs_at(std::span<const std::int32_t> particles, Visit visit) const {
+  if (meeting_starts_.empty()) {
+    meeting_starts_.assign(static_cast<std::size_t>(body_.particles.count) + 1, 0);
+    const auto local = [&](std::int32_t particle) { return particle - body_.particles.first; };
+    for (const Element& e : elements_) ++meeting_starts_[local(e.p) + 1], ++meeting_starts_[local(e.q) + 1];
+    for (std::size_t i = 1; i < meeting_starts_.size(); ++i) meeting_starts_[i] += meeting_starts_[i - 1];
+    meeting_.resize(2 * elements_.size());
+    std::vector<std::int32_t> next = meeting_starts_;
+    for (std::size_t k = 0; k < elements_.size(); ++k) {
+      meeting_[next[local(elements_[k].p)]++] = static_cast<std::int32_t>(k);
+      meeting_[next[local(elements_[k].q)]++] = static_cast<std::int32_t>(k);
+    }
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const std::int32_t local = particles[i] - body_.particles.first;
+    if (local < 0 || local >= body_.particles.count) continue;
+    for (std::int32_t k = meeting_starts_[local]; k < meeting_starts_[local + 1]; ++k) {
+      const Element& e = elements_[meeting_[k]];
+      visit(i, e, e.p == particles[i] ? 1.0 : -1.0);
+    }
+  }
+}
+
+void Springs::add_blocks(const VecX& x, std::span<const std::int32_t> particles, std::span<Vec3> f,
+                         std::span<Mat3> K) const {
+  for_springs_at(particles, [&](std::size_t i, const Element& e, double sign) {
+    const Vec3 d = block3(x, e.q) - block3(x, e.p);
+    f[i] += sign * calc_spring_force(d, Vec3::Zero(), e.r, body_.stiffness, 0.0);
+    K[i] += calc_spring_tangent(d, e.r, body_.stiffness, Tangent::positive_semidefinite);
+  });
+}
+
+void Springs::add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
+                                 std::span<Vec3> f, std::span<Mat3> K) const {
+  for_springs_at(particles, [&](std::size_t i, const Element& e, double sign) {
+    const Vec3 n = calc_spring_direction(block3(x, e.q) - block3(x, e.p)).n;
+    const double damping = body_.damping / e.r;
+    f[i] += sign * damping * (block3(v, e.q) - block3(v, e.p)).dot(n) * n;
+    K[i] += scale * damping * n * n.transpose();
+  });
+}
+
+// C = l - r of compliance r / k_s, damped by k_d / r. Multiplied through by s = h^2 k_s / r and s_d = h k_d / r, so
+// that no stiffness is no trouble:
+//   dlambda = (-s C - lambda - s_d gradC.(x - start)) / ((s + s_d) W + 1),  W = sum_i w_i |grad_i C|^2.
+// Source: M. Macklin, M. Mueller, N. Chentanez, XPBD, Motion in Games 2016, equations 18 and 26.
+void Springs::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const Element& e = elements_[k];
+    const SpringDirection direction = calc_spring_direction(block3(x, e.q) - block3(x, e.p));
+    const Vec3 n = direction.n;
+    const double s = sweep.h * sweep.h * body_.stiffness / e.r, s_d = sweep.h * body_.damping / e.r;
+    const Vec3 wn_p = block3(sweep.inverse_masses, e.p).cwiseProduct(n);
+    const Vec3 wn_q = block3(sweep.inverse_masses, e.q).cwiseProduct(n);
+    const double moved = n.dot(block3(x, e.q) - block3(sweep.start, e.q) - block3(x, e.p) + block3(sweep.start, e.p));
+    const double W = n.dot(wn_p) + n.dot(wn_q);
+    const double change = (-s * (direction.l - e.r) - lambda[k] - s_d * moved) / ((s + s_d) * W + 1.0);
+    lambda[k] += change;
+    block3(x, e.p) -= change * wn_p;
+    block3(x, e.q) += change * wn_q;
   }
 }
 

@@ -1,37 +1,57 @@
 #include "core/forces/system.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/forces/force_table.h"
+#include "core/forces/friction.h"
 
 namespace flexcast {
 
 System::System(const Model& model) : model_(model) {
   for (const ForceRow& row : force_rows()) row.make(model, forces_);
+  const Eigen::Map<const Eigen::Matrix3Xd> rest(model.rest_positions.data(), 3, model.particle_count());
+  if (rest.cols() > 0) size_ = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
   refresh();
 }
 
 void System::refresh() {
   active_.clear();
-  has_damping_ = false;
-  for (const auto& force : forces_) {
-    if (!force->is_active()) continue;
-    active_.push_back(force.get());
-    has_damping_ = has_damping_ || force->has_damping();
-  }
+  has_damping_ = has_friction_ = false;
   const std::int64_t n = model_.particle_count();
   dof_masses_.resize(3 * n);
   inverse_masses_.resize(3 * n);
   free_.resize(3 * n);
   for (std::int64_t i = 0; i < 3 * n; ++i) {
-    const bool fixed = model_.fixed[static_cast<std::size_t>(i)] != 0;
     dof_masses_[i] = model_.masses[i / 3];
-    inverse_masses_[i] = fixed ? 0.0 : 1.0 / model_.masses[i / 3];
-    free_[i] = fixed ? 0.0 : 1.0;
+    free_[i] = model_.fixed[static_cast<std::size_t>(i)] ? 0.0 : 1.0;
+  }
+  for (const Handle& handle : model_.handles) {
+    for (const std::int32_t particle : handle.particles) block3(free_, particle).setZero();
+  }
+  inverse_masses_ = free_.cwiseQuotient(dof_masses_);
+
+  if (!model_.obstacles.empty()) {
+    std::vector<ModeBound> elastic(model_.bodies.size());
+    for (const auto& force : forces_) {
+      if (force->energy_kind() == EnergyKind::elastic && force->is_active())
+        elastic[static_cast<std::size_t>(force->body())] = force->calc_mode_bound();
+    }
+    for (const auto& force : forces_) force->follow_parameters(elastic);
+  }
+  for (const auto& force : forces_) {
+    if (!force->is_active()) continue;
+    active_.push_back(force.get());
+    has_damping_ = has_damping_ || force->has_damping();
+    has_friction_ = has_friction_ || force->has_friction();
   }
 }
 
-void System::calc_force(const VecX& x, const VecX& v, VecX& f) const {
+double System::calc_force(const VecX& x, const VecX& v, VecX& f) const {
   f.setZero(dofs());
-  for (const Force* force : active_) force->add_force(x, v, f);
+  double power = 0.0;
+  for (const Force* force : active_) power += force->add_force(x, v, f);
+  return power;
 }
 
 void System::calc_conservative(const VecX& x, VecX& f) const {
@@ -39,11 +59,13 @@ void System::calc_conservative(const VecX& x, VecX& f) const {
   for (const Force* force : active_) force->add_conservative(x, f);
 }
 
-void System::calc_damping(const VecX& x, const VecX& v, VecX& f) const {
+double System::calc_damping(const VecX& x, const VecX& v, VecX& f) const {
   f.setZero(dofs());
+  double power = 0.0;
   for (const Force* force : active_) {
-    if (force->has_damping()) force->add_damping(x, v, f);
+    if (force->has_damping()) power += force->add_damping(x, v, f);
   }
+  return power;
 }
 
 void System::calc_position_dependent(const VecX& x, VecX& f) const {
@@ -68,6 +90,12 @@ double System::calc_energy(EnergyKind kind, const VecX& x) const {
   return energy;
 }
 
+double System::calc_potential(const VecX& x) const {
+  double energy = 0.0;
+  for (const Force* force : active_) energy += force->calc_energy(x);
+  return energy;
+}
+
 double System::calc_kinetic(const VecX& v) const {
   return 0.5 * v.dot(dof_masses_.cwiseProduct(v));
 }
@@ -80,10 +108,14 @@ double System::calc_position_dependent_energy(const VecX& x) const {
   return energy;
 }
 
-BlockMatrix System::make_matrix() const {
+std::vector<std::pair<std::int32_t, std::int32_t>> System::make_couplings() const {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (const auto& force : forces_) force->add_couplings(pairs);
-  return BlockMatrix(static_cast<std::int32_t>(model_.particle_count()), std::move(pairs));
+  return pairs;
+}
+
+BlockMatrix System::make_matrix() const {
+  return BlockMatrix(static_cast<std::int32_t>(model_.particle_count()), make_couplings());
 }
 
 void System::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
@@ -96,18 +128,81 @@ void System::add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) con
   }
 }
 
+void System::prescribe(double time, VecX& x, VecX& v) const {
+  for (const Handle& handle : model_.handles) {
+    const HandleMotion motion = calc_motion(handle, time);
+    for (std::size_t i = 0; i < handle.particles.size(); ++i) {
+      block3(x, handle.particles[i]) = motion.calc_position(handle.base[i]);
+      block3(v, handle.particles[i]) = motion.calc_velocity(handle.base[i]);
+    }
+  }
+}
+
+std::vector<FrictionPoint> System::find_friction_points(const VecX& x) const {
+  std::vector<FrictionPoint> points;
+  for (const Force* force : active_) force->add_friction_points(x, points);
+  return points;
+}
+
+void System::apply_friction(double h, const VecX& x, const VecX& F, VecX& v, StepStatistics& statistics) const {
+  const std::vector<FrictionPoint> points = find_friction_points(x);
+  for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
+    // A particle's points are neighbours.
+    const std::int32_t particle = points[first].particle;
+    while (end < points.size() && points[end].particle == particle) ++end;
+    const Vec3 w = block3(inverse_masses_, particle);
+    const Vec3 before = block3(v, particle);
+    Vec3 now = before;
+    for (std::size_t k = first; k < end; ++k) {
+      const Vec3 sliding = calc_tangential(points[k], now).cwiseProduct(block3(free_, particle));
+      const double speed = sliding.norm();
+      if (speed > 0.0) now -= std::min(1.0, points[k].limit * h * w.maxCoeff() / speed) * sliding;
+    }
+    block3(v, particle) = now;
+    const Vec3 impulse = model_.masses[particle] * (now - before);  // N.s
+    const Vec3 start = before - h * w.cwiseProduct(block3(F, particle));
+    statistics.dissipated -= 0.5 * impulse.dot(before + now);
+    statistics.force_work += 0.5 * impulse.dot(start + now);
+  }
+}
+
+std::vector<const Body*> System::find_free_bodies() const {
+  std::vector<const Body*> bodies;
+  if (!model_.obstacles.empty()) return bodies;
+  for (const Body& body : model_.bodies) {
+    const auto inside = [&](std::int32_t i) { return i >= body.particles.first && i < body.particles.end(); };
+    const bool held =
+        (free_.segment(3 * body.particles.first, 3 * body.particles.count).array() == 0.0).any() ||
+        std::any_of(model_.grabs.begin(), model_.grabs.end(), [&](const Grab& grab) { return inside(grab.particle); });
+    if (!held) bodies.push_back(&body);
+  }
+  return bodies;
+}
+
 std::vector<ModeBound> System::calc_mode_bounds() const {
-  // A body has one elastic force; what damps acts on top of it.
+  // A body has one elastic force; what damps, touches or pulls acts on top of it.
   std::vector<ModeBound> bounds(model_.bodies.size());
   for (const Force* force : active_) {
-    if (force->body() < 0) continue;
-    ModeBound& bound = bounds[static_cast<std::size_t>(force->body())];
     const ModeBound one = force->calc_mode_bound();
-    bound.omega_squared += one.omega_squared;
-    bound.damping_rate += one.damping_rate;
-    bound.least_damping_rate += one.least_damping_rate;
+    for (std::size_t b = 0; b < bounds.size(); ++b) {
+      if (force->body() >= 0 && static_cast<std::size_t>(force->body()) != b) continue;
+      bounds[b].omega_squared += one.omega_squared;
+      bounds[b].damping_rate += one.damping_rate;
+      bounds[b].least_damping_rate += one.least_damping_rate;
+    }
   }
   return bounds;
+}
+
+double System::calc_stiffness_norm() const {
+  const std::vector<ModeBound> bounds = calc_mode_bounds();
+  double sum = 0.0;
+  for (std::size_t b = 0; b < bounds.size(); ++b) {
+    const IndexRange particles = model_.bodies[b].particles;
+    sum += dof_masses_.segment(3 * particles.first, 3 * particles.count).squaredNorm() * bounds[b].omega_squared *
+           bounds[b].omega_squared;
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace flexcast

@@ -1,11 +1,13 @@
-// System: everything an integrator needs to know of a scene: inertia, what is held, and the forces acting now. A force
-// that the parameters make idle is not called.
+// System: everything an integrator needs to know of a scene: inertia, what is held or moved, and the forces acting now.
+// A force that the parameters make idle is not called.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "core/forces/force.h"
+#include "core/forces/handle.h"
+#include "core/state/step_statistics.h"
 
 namespace flexcast {
 
@@ -20,18 +22,22 @@ class System {
   std::int64_t dofs() const { return inverse_masses_.size(); }
   const VecX& masses() const { return dof_masses_; }              // kg, 3 n
   const VecX& inverse_masses() const { return inverse_masses_; }  // 1/kg, 3 n, 0 where held
-  const VecX& free() const { return free_; }                      // 3 n: 1 where free, 0 where held
+  const VecX& free() const { return free_; }  // 3 n: 1 where free, 0 where held or moved by a handle
   bool has_damping() const { return has_damping_; }
+  bool has_handles() const { return !model_.handles.empty(); }
+  bool has_friction() const { return has_friction_; }
+  double size() const { return size_; }  // m, diagonal of the box around all rest positions
 
-  // f = ..., at every particle, held or not.
-  void calc_force(const VecX& x, const VecX& v, VecX& f) const;
+  // f = ..., at every particle, held or not. What damps returns the power it takes, W.
+  double calc_force(const VecX& x, const VecX& v, VecX& f) const;
   void calc_conservative(const VecX& x, VecX& f) const;
-  void calc_damping(const VecX& x, const VecX& v, VecX& f) const;
+  double calc_damping(const VecX& x, const VecX& v, VecX& f) const;
   // The conservative force in two parts: what depends on positions, and what does not.
   void calc_position_dependent(const VecX& x, VecX& f) const;
   void calc_constant(VecX& f) const;
 
   double calc_energy(EnergyKind kind, const VecX& x) const;  // J
+  double calc_potential(const VecX& x) const;                // J, of every kind
   double calc_kinetic(const VecX& v) const;                  // J
   // J, of the position-dependent forces.
   double calc_position_dependent_energy(const VecX& x) const;
@@ -40,16 +46,40 @@ class System {
   BlockMatrix make_matrix() const;
   void add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const;
   void add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const;
+  // Every pair of particles that feel each other, as often as they do.
+  std::vector<std::pair<std::int32_t, std::int32_t>> make_couplings() const;
+
+  // Puts the handles' particles where they are at `time`, with their velocities. Nothing in a scene without handles.
+  void prescribe(double time, VecX& x, VecX& v) const;
+  // One per handle.
+  const std::vector<Handle>& handles() const { return model_.handles; }
+  HandleMotion calc_motion(const Handle& handle, double time) const {
+    return calc_handle_motion(handle, time, model_.jump_time);
+  }
+
+  // What explicit schemes do about friction once they have changed the velocities by h F / m, F taken at x: sliding is
+  // slowed by at most the limit times h, and stops rather than turns. Exact for what rests: it sticks.
+  void apply_friction(double h, const VecX& x, const VecX& F, VecX& v, StepStatistics& statistics) const;
+  std::vector<FrictionPoint> find_friction_points(const VecX& x) const;
+
+  // Bodies that nothing holds or can hold: no fixed, moved or grabbed particle, no obstacle in the scene.
+  std::vector<const Body*> find_free_bodies() const;
+
+  // For position-based schemes: the active forces themselves.
+  const std::vector<const Force*>& active_forces() const { return active_; }
 
   // One per body.
   std::vector<ModeBound> calc_mode_bounds() const;
+  // N/m, norm over all degrees of freedom of mass times the largest omega^2: forces that move everything by a length.
+  double calc_stiffness_norm() const;
 
  private:
   const Model& model_;
   std::vector<std::unique_ptr<Force>> forces_;
   std::vector<const Force*> active_;
   VecX dof_masses_, inverse_masses_, free_;
-  bool has_damping_ = false;
+  bool has_damping_ = false, has_friction_ = false;
+  double size_ = 0.0;
 };
 
 }  // namespace flexcast

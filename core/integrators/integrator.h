@@ -15,17 +15,21 @@ namespace flexcast {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  // Positions and velocities after h seconds; step and time are the caller's. Held degrees of freedom keep their
-  // positions. The result depends on the state and the system only, to the last bit.
+  // Positions and velocities after h seconds from state.time; step and time are the caller's to advance. Held degrees
+  // of freedom keep their positions, handles move as prescribed. The result depends on state, system and history only,
+  // to the last bit.
   virtual void step(const System& system, double h, State& state, StepStatistics& statistics) = 0;
   // The state or the system changed between two steps: what was kept from the last step is void.
   virtual void invalidate() {}
+  // What a scheme of several steps knows of the past, for a scheme of the same name to go on from. Empty: nothing.
+  virtual VecX history() const { return {}; }
+  virtual void set_history(const VecX& /*history*/) {}
 };
 
 struct IntegratorRow {
   std::string_view name;  // as in scene files
   std::string_view summary;
-  int order;      // of convergence in h
+  int order;      // of convergence in h; 0: the scheme has none (it iterates a fixed number of times, or knows no time)
   bool implicit;  // has solver settings; no stability limit
   // s: the largest stable h for a mode x'' = -omega^2 x - damping_rate x' (1/s; damping_rate = 2 zeta omega), possibly
   // infinite.

@@ -3,35 +3,47 @@
 #include <complex>
 
 #include "core/integrators/stability.h"
+#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
 
 class Rk4 final : public Integrator {
  public:
-  void step(const System& system, double h, State& state, StepStatistics&) override {
-    const VecX& w = system.inverse_masses();
-    const VecX& x = state.positions;
+  void step(const System& system, double h, State& state, StepStatistics& statistics) override {
     const VecX& v = state.velocities;
-    system.calc_force(x, v, force_);
-    a1_ = w.cwiseProduct(force_);
-    v2_ = v + 0.5 * h * a1_;
-    at_ = x + 0.5 * h * v;
-    system.calc_force(at_, v2_, force_);
-    a2_ = w.cwiseProduct(force_);
-    v3_ = v + 0.5 * h * a2_;
-    at_ = x + 0.5 * h * v2_;
-    system.calc_force(at_, v3_, force_);
-    a3_ = w.cwiseProduct(force_);
-    v4_ = v + h * a3_;
-    at_ = x + h * v3_;
-    system.calc_force(at_, v4_, force_);
+    double power = system.calc_force(state.positions, v, f1_);
+    make_stage(system, 0.5 * h, state, v, f1_, v2_);
+    power += 2.0 * system.calc_force(at_, v2_, f2_);
+    make_stage(system, 0.5 * h, state, v2_, f2_, v3_);
+    power += 2.0 * system.calc_force(at_, v3_, f3_);
+    make_stage(system, h, state, v3_, f3_, v4_);
+    power += system.calc_force(at_, v4_, f4_);
+    statistics.dissipated += h / 6.0 * power;
+
+    f1_ = (f1_ + 2.0 * f2_ + 2.0 * f3_ + f4_) / 6.0;
+    VelocityChange change(system, h, f1_, v, statistics);
     state.positions += h / 6.0 * (v + 2.0 * v2_ + 2.0 * v3_ + v4_);
-    state.velocities += h / 6.0 * (a1_ + 2.0 * a2_ + 2.0 * a3_ + w.cwiseProduct(force_));
+    state.velocities += h * system.inverse_masses().cwiseProduct(f1_);
+    if (system.has_friction()) system.apply_friction(h, at_, f1_, state.velocities, statistics);
+    system.prescribe(state.time + h, state.positions, state.velocities);
+    change.close(state.velocities);
   }
 
  private:
-  VecX force_, a1_, a2_, a3_, v2_, v3_, v4_, at_;
+  // The next stage, h after the start: positions at_ moved with `velocities`, velocities `to` changed by `force`.
+  void make_stage(const System& system, double h, const State& state, const VecX& velocities, const VecX& force,
+                  VecX& to) {
+    to = state.velocities + h * system.inverse_masses().cwiseProduct(force);
+    if (system.has_friction()) {
+      StepStatistics unused;
+      system.apply_friction(h, state.positions, force, to, unused);
+    }
+    at_ = state.positions + h * velocities;
+    system.prescribe(state.time + h, at_, to);
+  }
+
+  VecX f1_, f2_, f3_, f4_, v2_, v3_, v4_, at_;
 };
 
 // |R(h lambda)| <= 1 with R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 and lambda^2 + c lambda + omega^2 = 0.

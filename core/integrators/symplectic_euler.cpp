@@ -2,15 +2,21 @@
 
 #include <cmath>
 
+#include "core/integrators/velocity_change.h"
+
 namespace flexcast {
 namespace {
 
 class SymplecticEuler final : public Integrator {
  public:
-  void step(const System& system, double h, State& state, StepStatistics&) override {
-    system.calc_force(state.positions, state.velocities, force_);
+  void step(const System& system, double h, State& state, StepStatistics& statistics) override {
+    statistics.dissipated += h * system.calc_force(state.positions, state.velocities, force_);
+    VelocityChange change(system, h, force_, state.velocities, statistics);
     state.velocities += h * system.inverse_masses().cwiseProduct(force_);
+    if (system.has_friction()) system.apply_friction(h, state.positions, force_, state.velocities, statistics);
     state.positions += h * state.velocities;
+    system.prescribe(state.time + h, state.positions, state.velocities);
+    change.close(state.velocities);
   }
 
  private:

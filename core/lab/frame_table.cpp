@@ -14,7 +14,7 @@ void add_vector(std::ostream& out, const Vec3& vector) {
 }  // namespace
 
 FrameTable::FrameTable(std::ostream& out, const Simulation& simulation) : out_(out) {
-  out_ << "step,time,kinetic,elastic,gravity,contact,work,dissipated,residual,iterations,inverted,min_j";
+  out_ << "step,time,kinetic,elastic,gravity,contact,work,dissipated,numerical,residual,iterations,inverted,min_j";
   for (const char* vector : {"momentum", "angular_momentum"})
     for (const char* axis : {"x", "y", "z"}) out_ << ',' << vector << '.' << axis;
   for (const Probe& probe : simulation.probes())
@@ -26,7 +26,7 @@ void FrameTable::add(const Simulation& simulation) {
   const StepReport report = simulation.calc_report();
   out_ << report.step << ',' << exact_text(report.time);
   for (double number : {report.kinetic, report.elastic, report.gravity, report.contact, report.work, report.dissipated,
-                        report.statistics.residual})
+                        report.numerical, report.statistics.residual})
     out_ << ',' << exact_text(number);
   out_ << ',' << report.statistics.iterations << ',' << report.inverted << ',';
   if (report.min_j) out_ << exact_text(*report.min_j);

@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
+  if (auto* modes = std::get_if<flexcast::ModesOptions>(&command)) {
+    modes->stop = &stop;
+    return flexcast::modes_verb(*modes, std::cout, std::cerr);
+  }
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;
   options.progress = isatty(STDERR_FILENO) != 0;

@@ -28,6 +28,25 @@ std::string check_time(const std::string& text) {
   return good ? "" : "--until " + text + ": expected a number >= 0, s";
 }
 
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
+  verb.add_option("--set", overrides,
+                  "A value of the scene or a parameter, written as in TOML: time.step=1e-4, beam.young=2e5")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
+      ->check(check_assignment);
+}
+
+void add_modes(CLI::App& app, ModesOptions& options) {
+  CLI::App* modes =
+      app.add_subcommand("modes", "Print natural frequencies of a scene, and the explicit step it allows.");
+  modes->footer("Example:\n  flexcast-lab modes server/scenes/cantilever.toml --count 10 --static");
+  modes->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  modes->add_option("--count", options.count, "Number of the lowest modes")->type_name("N")->check(CLI::Range(1, 1000));
+  modes->add_flag("--static", options.at_equilibrium, "About the equilibrium instead of the start");
+  add_overrides(*modes, options.overrides);
+  modes->add_flag("--json", options.json, "Print JSON");
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Run a scene and print the report of its last step and its probes.");
   run->footer(footer);
@@ -39,11 +58,11 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes(until);
-  run->add_option("--set", options.overrides,
-                  "A value of the scene or a parameter, written as in TOML: time.step=1e-4, beam.young=2e5")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false)
-      ->check(check_assignment);
+  add_overrides(*run, options.overrides);
+  run->add_flag("--static", options.at_equilibrium, "Solve for equilibrium instead of stepping; handles at their end");
+  run->add_option("--threads", options.threads, "Threads of the engine; any number gives the same bits (one is used)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   run->add_option("--csv", options.csv, "File for one row per frame, the initial state first")->type_name("FILE");
   run->add_option("--positions", options.positions, "File for the final positions, one `x y z` a line")
       ->type_name("FILE");
@@ -58,7 +77,9 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   app.set_version_flag("--version", std::string("flexcast-lab ") + FLEXCAST_VERSION);
   app.require_subcommand(1);
   RunOptions run;
+  ModesOptions modes;
   add_run(app, run);
+  add_modes(app, modes);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -66,6 +87,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
     const bool answered = app.exit(error, out, log) == 0;
     return CommandLineEnd{answered ? out.str() : log.str(), answered ? 0 : 2};
   }
+  if (app.got_subcommand("modes")) return modes;
   return run;
 }
 

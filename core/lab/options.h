@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/lab/modes.h"
 #include "core/lab/run.h"
 
 namespace flexcast {
@@ -16,7 +17,7 @@ struct CommandLineEnd {
 };
 
 // One alternative a verb.
-using LabCommand = std::variant<CommandLineEnd, RunOptions>;
+using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 

@@ -28,7 +28,7 @@ Json to_json(const StepReport& report) {
           {"iterations", report.statistics.iterations},
           {"linear_iterations", report.statistics.linear_iterations},
           {"converged", report.statistics.converged},
-          {"numerical", to_json(report.numerical)},
+          {"numerical", report.numerical},
           {"error_estimate", to_json(report.error_estimate)},
           {"stability_margin", to_json(report.stability_margin)},
           {"inverted", report.inverted},
@@ -72,9 +72,12 @@ nlohmann::ordered_json make_report_json(const Run& run) {
   const Simulation& simulation = *run.scene.simulation;
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation.calc_state_hash()));
-  Json probes = Json::object(), bodies = Json::object();
+  Json probes = Json::object(), bodies = Json::object(), handles = Json::object();
   for (const Probe& probe : simulation.probes()) probes[probe.name] = to_json(probe, simulation);
   for (const BodyReport& body : simulation.calc_body_reports()) bodies[body.name] = to_json(body);
+  for (const HandleReport& handle : simulation.calc_handle_reports()) {
+    handles[handle.name] = {{"force", to_json(handle.force)}, {"torque", to_json(handle.torque)}};
+  }
   Json json = {{"scene", run.scene.name},
                {"integrator", simulation.settings().time.integrator},
                {"state", run.state},
@@ -83,7 +86,7 @@ nlohmann::ordered_json make_report_json(const Run& run) {
                {"wall_seconds", run.wall_seconds},
                {"report", to_json(simulation.calc_report())},
                {"probes", std::move(probes)},
-               {"handles", Json::object()},
+               {"handles", std::move(handles)},
                {"bodies", std::move(bodies)},
                {"state_hash", hash},
                {"warnings", run.warnings}};

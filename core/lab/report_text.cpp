@@ -25,9 +25,10 @@ std::string vector_text(const Vec3& v) {
 
 // "gravity -1.2 J, ..." for those that are not zero.
 std::string energy_text(const StepReport& report) {
-  const std::pair<const char*, double> energies[] = {{"kinetic", report.kinetic}, {"elastic", report.elastic},
-                                                     {"gravity", report.gravity}, {"contact", report.contact},
-                                                     {"work", report.work},       {"dissipated", report.dissipated}};
+  const std::pair<const char*, double> energies[] = {{"kinetic", report.kinetic},    {"elastic", report.elastic},
+                                                     {"gravity", report.gravity},    {"contact", report.contact},
+                                                     {"work", report.work},          {"dissipated", report.dissipated},
+                                                     {"numerical", report.numerical}};
   std::string text;
   for (const auto& [name, value] : energies)
     if (value != 0.0) text += format("%s%s %.6g J", text.empty() ? "" : ", ", name, value);
@@ -79,6 +80,9 @@ std::string make_report_text(const Run& run) {
   if (report.statistics.iterations > 0) text += line("solver", solver_text(report.statistics));
   if (report.stability_margin)
     text += line("stability", format("margin %.4g (stable step / step)", *report.stability_margin));
+  for (const HandleReport& handle : simulation.calc_handle_reports())
+    text += line(handle.name.c_str(),
+                 "force " + vector_text(handle.force) + " N, torque " + vector_text(handle.torque) + " N.m");
   for (const Probe& probe : simulation.probes()) text += line(probe.name.c_str(), probe_text(probe, simulation));
   text += line("state hash", format("%016llx", static_cast<unsigned long long>(simulation.calc_state_hash())));
   return text;

@@ -10,6 +10,7 @@
 #include "core/lab/progress.h"
 #include "core/lab/report_json.h"
 #include "core/lab/report_text.h"
+#include "core/lab/statics.h"
 
 namespace flexcast {
 namespace {
@@ -58,6 +59,22 @@ void step_to_end(const RunOptions& options, std::int64_t count, Run& run, FrameT
   }
 }
 
+// The equilibrium as a run: its frames are the start and the end.
+void go_to_equilibrium(const RunOptions& options, Run& run, FrameTable* table, std::ostream& log) {
+  Simulation& simulation = *run.scene.simulation;
+  if (table) table->add(simulation);
+  const Clock::time_point start = Clock::now();
+  const bool found = solve_static(simulation, {.stop = options.stop});
+  run.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  run.steps = simulation.state().step;
+  run.state = found ? "finished" : is_stopped(options) ? "stopped" : "failed";
+  if (!found && !simulation.failure()) {
+    log << "flexcast-lab: no equilibrium was found in " << run.steps << " steps: residual "
+        << exact_text(simulation.statistics().residual) << ", wanted " << exact_text(run.static_tolerance) << std::endl;
+  }
+  if (table) table->add(simulation);
+}
+
 Result<void> write_positions(const std::filesystem::path& path, const VecX& positions) {
   auto file = OutputFile::open(path);
   if (!file) return file.error();
@@ -73,8 +90,9 @@ Result<void> write_positions(const std::filesystem::path& path, const VecX& posi
 Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
   auto loaded = load_scene(options.scene, options.overrides);
   if (!loaded) return loaded.error();
-  Run run{std::move(loaded).value(), "", 0, 0.0, {}};
+  Run run{std::move(loaded).value(), "", 0, 0.0, 0.0, {}};
   Simulation& simulation = *run.scene.simulation;
+  run.static_tolerance = simulation.settings().solver.newton_tolerance;
   const auto count = calc_step_count(options, simulation.settings());
   if (!count) return count.error();
   run.warnings = run.scene.notes;
@@ -89,7 +107,9 @@ Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
     csv.emplace(std::move(file).value());
     table.emplace(csv->stream(), simulation);
   }
-  {
+  if (options.at_equilibrium) {
+    go_to_equilibrium(options, run, table ? &*table : nullptr, log);
+  } else {
     Progress progress(log, options.progress);
     step_to_end(options, count.value(), run, table ? &*table : nullptr, progress);
   }

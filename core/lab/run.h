@@ -20,6 +20,8 @@ struct RunOptions {
   std::vector<std::string> overrides;
   std::optional<std::filesystem::path> csv;        // a row per frame
   std::optional<std::filesystem::path> positions;  // the final ones
+  bool at_equilibrium = false;                     // solve for equilibrium instead of stepping
+  int threads = 1;                                 // any number gives the same bits; one is used today
   bool json = false;
   bool progress = false;                    // on the log while running
   const std::atomic<bool>* stop = nullptr;  // ends the run early when it becomes true
@@ -30,7 +32,8 @@ struct Run {
   Scene scene;
   std::string state;  // finished | failed | stopped
   std::int64_t steps = 0;
-  double wall_seconds = 0.0;  // in Simulation::step
+  double wall_seconds = 0.0;      // in Simulation::step
+  double static_tolerance = 0.0;  // what an equilibrium's residual must not pass
   std::vector<std::string> warnings;
 };
 

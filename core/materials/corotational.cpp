@@ -4,6 +4,7 @@
 
 #include "core/materials/polar.h"
 #include "core/materials/small_strain.h"
+#include "core/materials/tensors.h"
 
 namespace flexcast {
 namespace {
@@ -36,10 +37,7 @@ Mat9 calc_tangent_of(Lame lame, Tangent kind, const Mat3& F) {
   const Eigen::Matrix<double, 9, 1> q = polar.Q.reshaped();
   tangent += lame.lambda * q * q.transpose();
   for (int k = 0; k < 3; ++k) {
-    const Vec3 n = eigen.eigenvectors().col(k);
-    Mat3 cross;
-    cross << 0.0, -n.z(), n.y(), n.z(), 0.0, -n.x(), -n.y(), n.x(), 0.0;
-    const Mat3 T = polar.Q * cross;
+    const Mat3 T = polar.Q * make_cross_matrix(eigen.eigenvectors().col(k));
     const Eigen::Matrix<double, 9, 1> t = T.reshaped();
     double c = factor / std::max(trace - eigen.eigenvalues()[k], smallest_pair_sum);
     if (kind == Tangent::positive_semidefinite) c = std::max(c, -lame.mu);

@@ -3,6 +3,8 @@
 #include "core/materials/corotational.h"
 #include "core/materials/law.h"
 #include "core/materials/linear.h"
+#include "core/materials/neo_hookean.h"
+#include "core/materials/st_venant_kirchhoff.h"
 
 namespace flexcast {
 
@@ -11,7 +13,7 @@ Lame calc_lame(double young, double poisson) {
 }
 
 std::span<const Law> laws() {
-  static const std::array table{linear_law, corotational_law};
+  static const std::array table{linear_law, corotational_law, st_venant_kirchhoff_law, neo_hookean_law};
   return table;
 }
 

@@ -4,16 +4,10 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "core/materials/tensors.h"
+
 namespace flexcast {
 namespace {
-
-Mat3 calc_cofactor(const Mat3& A) {
-  Mat3 cofactor;
-  cofactor.col(0) = A.col(1).cross(A.col(2));
-  cofactor.col(1) = A.col(2).cross(A.col(0));
-  cofactor.col(2) = A.col(0).cross(A.col(1));
-  return cofactor;
-}
 
 // Signed SVD: the sign comes from the factors, not from det F, whose rounding is arbitrary where F is flat.
 Mat3 calc_rotation_by_svd(const Mat3& F) {

@@ -8,10 +8,6 @@
 namespace flexcast {
 namespace {
 
-// The face opposite to each vertex, outward for positive volumes.
-constexpr std::array<std::array<int, 3>, 4> local_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-constexpr std::array<std::array<int, 2>, 6> local_edges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
 struct Face {
   Triangle sorted;     // what makes two faces the same
   std::size_t number;  // 4 * element + face of the element
@@ -42,7 +38,7 @@ std::vector<Face> make_sorted_faces(const std::vector<Tetrahedron>& tetrahedra) 
 
 }  // namespace
 
-std::vector<Triangle> make_boundary_triangles(const std::vector<Tetrahedron>& tetrahedra) {
+std::vector<BoundaryFace> make_boundary_faces(const std::vector<Tetrahedron>& tetrahedra) {
   const std::vector<Face> faces = make_sorted_faces(tetrahedra);
   std::vector<std::size_t> outer;
   for (std::size_t first = 0; first < faces.size();) {
@@ -53,9 +49,17 @@ std::vector<Triangle> make_boundary_triangles(const std::vector<Tetrahedron>& te
   }
   std::sort(outer.begin(), outer.end());
 
+  std::vector<BoundaryFace> boundary;
+  boundary.reserve(outer.size());
+  for (const std::size_t number : outer) boundary.push_back({number / 4, number % 4});
+  return boundary;
+}
+
+std::vector<Triangle> make_boundary_triangles(const std::vector<Tetrahedron>& tetrahedra) {
   std::vector<Triangle> triangles;
-  triangles.reserve(outer.size());
-  for (std::size_t number : outer) triangles.push_back(make_face(tetrahedra[number / 4], number % 4));
+  for (const auto& [element, face] : make_boundary_faces(tetrahedra)) {
+    triangles.push_back(make_face(tetrahedra[element], face));
+  }
   return triangles;
 }
 

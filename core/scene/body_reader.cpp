@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/keys.h"
 #include "core/scene/mesh_section.h"
 #include "core/scene/parameter_keys.h"
 #include "core/scene/selectors.h"
@@ -116,6 +117,25 @@ std::vector<VelocityDescription> read_velocities(const TableReader& body) {
   return velocities;
 }
 
+std::vector<HandleDescription> read_handles(const TableReader& body) {
+  constexpr Scope scope = Scope::handle;
+  std::vector<HandleDescription> handles;
+  for (const TableEntry& entry : body.tables("handle")) {
+    const TableReader reader(entry, {"name", "select", "translate", "rotate", "about", "start", "duration"});
+    HandleDescription handle;
+    handle.name = reader.require_name("name");
+    handle.place = reader.place_of("name");
+    handle.select = read_select(reader);
+    handle.translate = reader.vector("translate", parameter_quantity(scope, "translate")).value_or(handle.translate);
+    handle.rotate = reader.vector("rotate", parameter_quantity(scope, "rotate")).value_or(handle.rotate);
+    handle.about = reader.vector("about", parameter_quantity(scope, "about"));
+    handle.start = reader.number("start", parameter_quantity(scope, "start")).value_or(handle.start);
+    handle.duration = reader.number("duration", parameter_quantity(scope, "duration")).value_or(handle.duration);
+    handles.push_back(std::move(handle));
+  }
+  return handles;
+}
+
 std::vector<MassDescription> read_particle_masses(const TableReader& body) {
   std::vector<MassDescription> masses;
   for (const TableEntry& entry : body.tables("particle_mass")) {
@@ -135,19 +155,16 @@ std::string owner_name(const TableEntry& entry, std::size_t number) {
 BodyDescription read_body(const TableEntry& entry, std::size_t number) {
   BodyDescription body;
   body.place = {entry.place.source, "[[body]] " + owner_name(entry, number), ""};
-  const TableReader reader(
-      {entry.table, body.place},
-      {"name", "model", "mesh", "element", "material", "springs", "mass", "total_mass", "particle_mass", "damping",
-       "drag", "origin", "rotation", "pin", "displacement", "velocity", "force"});
+  const TableReader reader({entry.table, body.place}, body_keys());
   body.name = reader.require_name("name");
   check_name(reader, body.name);
   const bool fem = reader.require_choice("model", {"fem", "mass_spring"}) == "fem";
   refuse_keys_of(reader, fem ? "mass_spring" : "fem",
                  fem ? std::vector<std::string_view>{"springs", "mass", "total_mass"}
-                     : std::vector<std::string_view>{"material", "element"});
+                     : std::vector<std::string_view>{"material", "element", "surface_force"});
   if (!reader.has("mesh")) reader.refuse_missing("mesh", "{ shape, cells, size } or { file }");
   body.mesh = read_mesh_section(*reader.table("mesh"), fem);
-  reader.choice("element", {"tet4"});
+  if (fem) body.quadratic = read_parameter(reader, Scope::fem_body, "element", std::string("tet4")) == "tet10";
   if (fem) read_material(reader, body);
   if (!fem) read_springs(reader, body);
   if (!fem) read_masses(reader, body);
@@ -160,6 +177,8 @@ BodyDescription read_body(const TableEntry& entry, std::size_t number) {
   body.displacements = read_vectors(reader, "displacement", "m");
   body.velocities = read_velocities(reader);
   body.forces = read_vectors(reader, "force", "N");
+  body.surface_forces = read_vectors(reader, "surface_force", "N");
+  body.handles = read_handles(reader);
   return body;
 }
 

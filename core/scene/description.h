@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/materials/law.h"
+#include "core/forces/model.h"
 #include "core/scene/place.h"
 #include "core/sim/settings.h"
 
@@ -62,6 +62,18 @@ struct VelocityDescription {
   Vec3 about = Vec3::Zero();  // m
 };
 
+// Particles that move as one rigid body, as prescribed.
+struct HandleDescription {
+  std::string name;
+  Place place;  // of its name
+  Selector select;
+  std::optional<Vec3> about;      // m; else the centroid of the selected rest particles
+  Vec3 translate = Vec3::Zero();  // m
+  Vec3 rotate = Vec3::Zero();     // rotation vector, rad
+  double start = 0.0;             // s, >= 0
+  double duration = 0.0;          // s, >= 0; 0: at once
+};
+
 // The mass of single particles; later entries win.
 struct MassDescription {
   Selector select;
@@ -77,8 +89,10 @@ struct BodyDescription {
   const Law* law = nullptr;  // null: mass_spring
   double young = 0.0;        // Pa
   double poisson = 0.0;
-  double density = 0.0;            // kg/m^3
-  double damping_stiffness = 0.0;  // s
+  double density = 0.0;                           // kg/m^3
+  double damping_stiffness = 0.0;                 // s
+  bool quadratic = false;                         // tet10
+  std::vector<VectorDescription> surface_forces;  // N in all, dead, on the boundary faces of the selection
 
   // mass_spring
   double spring_stiffness = 0.0;     // N
@@ -96,6 +110,7 @@ struct BodyDescription {
   std::vector<VectorDescription> displacements;
   std::vector<VelocityDescription> velocities;
   std::vector<VectorDescription> forces;
+  std::vector<HandleDescription> handles;
 };
 
 struct ProbeDescription {
@@ -112,6 +127,7 @@ struct SceneDescription {
   Vec3 gravity = Vec3::Zero();  // m/s^2
   Settings settings;
   std::vector<BodyDescription> bodies;
+  std::vector<Obstacle> obstacles;
   std::vector<ProbeDescription> probes;
 };
 

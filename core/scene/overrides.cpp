@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/keys.h"
 #include "core/scene/place.h"
-#include "core/scene/scene_reader.h"
 #include "core/scene/suggestion.h"
 #include "core/scene/value_text.h"
 #include "core/sim/parameters.h"
@@ -44,27 +44,42 @@ toml::table parse_value(const std::string& value, const std::string& source) {
   }
 }
 
-// The table among [[body]] or [[probe]] with this name.
-toml::table* find_named(toml::table& document, std::string_view kind, std::string_view name) {
-  toml::array* entries = document[kind].as_array();
-  if (!entries) return nullptr;
-  for (toml::node& entry : *entries)
-    if (toml::table* table = entry.as_table(); table && (*table)["name"].value<std::string_view>() == name)
-      return table;
-  return nullptr;
+// The tables of [[body]], [[probe]] or [[contact]], or a body's handles.
+std::vector<toml::table*> tables_of(toml::table& owner, std::string_view kind) {
+  std::vector<toml::table*> tables;
+  if (toml::array* entries = owner[kind].as_array())
+    for (toml::node& entry : *entries)
+      if (toml::table* table = entry.as_table()) tables.push_back(table);
+  return tables;
+}
+
+std::vector<toml::table*> handles_of(toml::table& document) {
+  std::vector<toml::table*> handles;
+  for (toml::table* body : tables_of(document, "body"))
+    for (toml::table* handle : tables_of(*body, "handle")) handles.push_back(handle);
+  return handles;
+}
+
+toml::table* find_named(const std::vector<toml::table*>& tables, std::string_view name) {
+  const auto found = std::ranges::find_if(
+      tables, [&](toml::table* table) { return (*table)["name"].value<std::string_view>() == name; });
+  return found == tables.end() ? nullptr : *found;
+}
+
+Keys names_of(const std::vector<toml::table*>& tables) {
+  Keys names;
+  for (const toml::table* table : tables)
+    if (const auto* name = table->get_as<std::string>("name")) names.push_back(name->get());
+  return names;
 }
 
 Keys known_first_keys(toml::table& document) {
   Keys known;
   for (std::string_view key : scene_keys())
     if (key != "body" && key != "probe") known.push_back(key);
-  for (std::string_view kind : {"body", "probe"}) {
-    const toml::array* entries = document[kind].as_array();
-    if (!entries) continue;
-    for (const toml::node& entry : *entries)
-      if (const toml::table* table = entry.as_table())
-        if (const auto* name = table->get_as<std::string>("name")) known.push_back(name->get());
-  }
+  if (!handles_of(document).empty()) known.push_back("handle");
+  for (std::string_view kind : {"body", "probe"})
+    for (std::string_view name : names_of(tables_of(document, kind))) known.push_back(name);
   return known;
 }
 
@@ -72,8 +87,7 @@ Keys known_first_keys(toml::table& document) {
 std::optional<std::string_view> find_scene_key(Scope scope, std::string_view name, const toml::node& value) {
   if (value.is_table()) return std::nullopt;
   for (const ParameterRow& row : parameter_rows()) {
-    const bool fits = row.scope == scope || (row.scope == Scope::any_body && scope != Scope::scene);
-    if (fits && row.name == name) return row.scene_key;
+    if (has_rows_of(scope, row.scope) && row.name == name) return row.scene_key;
   }
   return std::nullopt;
 }
@@ -105,6 +119,18 @@ void put(toml::table& start, std::string_view path, toml::node&& value, const st
   if (keys.size() == 1 && table == &start) table->erase(find_alternative(keys.back()));
 }
 
+// KIND.NAME.KEY with the tables of that kind.
+void put_named(const std::vector<toml::table*>& tables, const Keys& keys, std::string_view path, toml::node&& value,
+               const std::string& source) {
+  const std::string kind(keys[0]);
+  if (keys.size() < 3) throw SceneError(source + ": expected " + kind + ".NAME.KEY=VALUE");
+  const Keys names = names_of(tables);
+  if (std::ranges::find(names, keys[1]) == names.end())
+    throw SceneError(source + ": there is no " + kind + " " + std::string(keys[1]) +
+                     (names.empty() ? "" : " (known: " + join(names) + ")") + calc_suggestion(keys[1], names));
+  put(*find_named(tables, keys[1]), path.substr(keys[0].size() + keys[1].size() + 2), std::move(value), source);
+}
+
 }  // namespace
 
 void apply_override(toml::table& document, const std::string& assignment) {
@@ -117,8 +143,12 @@ void apply_override(toml::table& document, const std::string& assignment) {
 
   toml::table parsed = parse_value(assignment.substr(equals + 1), source);
   toml::node& value = *parsed.get("value");
-  toml::table* body = find_named(document, "body", keys[0]);
-  toml::table* named = body ? body : find_named(document, "probe", keys[0]);
+  const bool whole = keys.size() == 1;
+  if (keys[0] == "contact" && !whole)
+    return put_named(tables_of(document, "contact"), keys, path, std::move(value), source);
+  if (keys[0] == "handle") return put_named(handles_of(document), keys, path, std::move(value), source);
+  toml::table* body = find_named(tables_of(document, "body"), keys[0]);
+  toml::table* named = body ? body : find_named(tables_of(document, "probe"), keys[0]);
   if (!named) {
     const Keys known = known_first_keys(document);
     if (std::ranges::find(known, keys[0]) == known.end())
@@ -127,7 +157,7 @@ void apply_override(toml::table& document, const std::string& assignment) {
     put(document, find_scene_key(Scope::scene, path, value).value_or(path), std::move(value), source);
     return;
   }
-  if (keys.size() == 1) throw SceneError(source + ": expected a key below " + std::string(keys[0]));
+  if (whole) throw SceneError(source + ": expected a key below " + std::string(keys[0]));
   const std::string_view below = path.substr(keys[0].size() + 1);
   const bool fem = (*named)["model"].value<std::string_view>() == "fem";
   const auto key = body ? find_scene_key(fem ? Scope::fem_body : Scope::spring_body, below, value) : std::nullopt;

@@ -46,4 +46,8 @@ double require_parameter(const TableReader& reader, ParameterRow::Scope scope, s
   return reader.require_number(key, quantity_of(row_of(reader, scope, key)));
 }
 
+Vec3 require_vector_parameter(const TableReader& reader, ParameterRow::Scope scope, std::string_view key) {
+  return reader.require_vector(key, quantity_of(row_of(reader, scope, key)));
+}
+
 }  // namespace flexcast

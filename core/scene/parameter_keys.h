@@ -16,5 +16,6 @@ Vec3 read_parameter(const TableReader& reader, ParameterRow::Scope scope, std::s
 std::string read_parameter(const TableReader& reader, ParameterRow::Scope scope, std::string_view key,
                            const std::string& otherwise);
 double require_parameter(const TableReader& reader, ParameterRow::Scope scope, std::string_view key);
+Vec3 require_vector_parameter(const TableReader& reader, ParameterRow::Scope scope, std::string_view key);
 
 }  // namespace flexcast

@@ -28,8 +28,8 @@ struct Scene {
 };
 
 // `overrides`: PATH=VALUE with VALUE as in TOML; PATH is a path of the scene file ("time.step", "beam.material.young",
-// "beam.mesh.cells", body names standing for their table) or the name of a parameter ("beam.young"). Errors name file
-// and line (or the override), key, value and what is allowed.
+// "beam.mesh.cells", body names standing for their table; "contact.ground.friction", "handle.grip.translate") or the
+// name of a parameter ("beam.young"). Errors name file and line (or the override), key, value and what is allowed.
 Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 // The same from text; `directory` is where relative mesh paths start, `origin` stands for the file name in errors.

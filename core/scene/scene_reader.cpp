@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/scene/body_reader.h"
+#include "core/scene/contact_reader.h"
+#include "core/scene/keys.h"
 #include "core/scene/parameter_keys.h"
 #include "core/scene/suggestion.h"
 #include "core/scene/value_text.h"
@@ -31,13 +33,14 @@ SolverSettings read_solver(const TableReader& reader) {
   solver.linear_tolerance = read_parameter(reader, scene, "linear_tolerance", solver.linear_tolerance);
   solver.newton_iterations = read_parameter(reader, scene, "newton_iterations", solver.newton_iterations);
   solver.newton_tolerance = read_parameter(reader, scene, "newton_tolerance", solver.newton_tolerance);
+  solver.iterations = read_parameter(reader, scene, "iterations", solver.iterations);
   return solver;
 }
 
 StreamSettings read_stream(const TableReader& reader) {
   StreamSettings stream;
   stream.fields = reader.choices("fields", {"positions", "velocities"}).value_or(stream.fields);
-  stream.precision = reader.choice("precision", {"float32", "float64"}).value_or(stream.precision);
+  stream.precision = read_parameter(reader, scene, "precision", stream.precision);
   stream.every = read_parameter(reader, scene, "every", stream.every);
   return stream;
 }
@@ -59,6 +62,31 @@ std::vector<BodyDescription> read_bodies(const TableReader& top) {
     names.push_back(bodies.emplace_back(std::move(body)).name);
   }
   return bodies;
+}
+
+// Handles are named apart from their body: handle.NAME.translate.
+void check_handle_names(const std::vector<BodyDescription>& bodies) {
+  std::vector<std::string_view> names;
+  for (const BodyDescription& body : bodies) {
+    for (const HandleDescription& handle : body.handles) {
+      if (std::find(names.begin(), names.end(), handle.name) != names.end())
+        refuse(handle.place, "= \"" + handle.name + "\" is there twice; the handles of a scene must differ in name");
+      names.push_back(handle.name);
+    }
+  }
+}
+
+std::vector<Obstacle> read_contacts(const TableReader& top) {
+  std::vector<Obstacle> obstacles;
+  for (const TableEntry& entry : top.tables("contact")) {
+    const Place place{entry.place.source, "[[contact]] " + owner_name(entry, obstacles.size() + 1), ""};
+    Obstacle obstacle = read_contact({entry.table, place});
+    std::vector<std::string_view> names;
+    for (const Obstacle& other : obstacles) names.push_back(other.name);
+    check_new_name(obstacle.name, place, names);
+    obstacles.push_back(std::move(obstacle));
+  }
+  return obstacles;
 }
 
 ProbeDescription read_probe(const TableEntry& entry, std::size_t number, const std::vector<std::string_view>& bodies) {
@@ -91,10 +119,6 @@ std::vector<ProbeDescription> read_probes(const TableReader& top, const std::vec
 
 }  // namespace
 
-std::vector<std::string_view> scene_keys() {
-  return {"name", "description", "gravity", "time", "solver", "body", "probe", "stream"};
-}
-
 SceneDescription read_scene(const toml::table& document) {
   const TableReader top({&document, {source_text(document, "scene"), "", ""}}, scene_keys());
   SceneDescription description;
@@ -105,10 +129,12 @@ SceneDescription read_scene(const toml::table& document) {
     description.settings.time = read_time({*time, {"step", "integrator", "substeps", "duration"}});
   if (const auto solver = top.table("solver"))
     description.settings.solver =
-        read_solver({*solver, {"linear", "linear_tolerance", "newton_iterations", "newton_tolerance"}});
+        read_solver({*solver, {"linear", "linear_tolerance", "newton_iterations", "newton_tolerance", "iterations"}});
   if (const auto stream = top.table("stream"))
     description.settings.stream = read_stream({*stream, {"fields", "precision", "every"}});
   description.bodies = read_bodies(top);
+  check_handle_names(description.bodies);
+  description.obstacles = read_contacts(top);
   description.probes = read_probes(top, description.bodies);
   return description;
 }

@@ -10,7 +10,4 @@ namespace flexcast {
 // `document` was parsed with the name that errors shall show as its source path. Throws SceneError.
 SceneDescription read_scene(const toml::table& document);
 
-// The keys at the top of a scene file.
-std::vector<std::string_view> scene_keys();
-
 }  // namespace flexcast

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mesh/topology.h"
+
 namespace flexcast {
 namespace {
 
@@ -42,6 +44,11 @@ std::vector<std::int32_t> find_inside(const Region& region, const std::vector<Ve
   return found;
 }
 
+void sort_unique(std::vector<std::int32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 std::vector<std::int32_t> find_nodes(const Selector& selector, const NodeSelector& list, IndexRange particles) {
   std::vector<std::int32_t> found;
   for (std::int64_t node : list.nodes) {
@@ -50,9 +57,25 @@ std::vector<std::int32_t> find_nodes(const Selector& selector, const NodeSelecto
                                  std::to_string(particles.count - 1) + ")");
     found.push_back(particles.first + static_cast<std::int32_t>(node));
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
+}
+
+// The midside nodes between two of the found ones.
+void add_midsides(std::span<const Tetrahedron> tetrahedra, std::span<const Midsides> midsides,
+                  std::vector<std::int32_t>& found) {
+  const std::vector<std::int32_t> ends = found;
+  const auto is_end = [&](std::int32_t node) { return std::binary_search(ends.begin(), ends.end(), node); };
+  for (std::size_t t = 0; t < midsides.size(); ++t) {
+    std::array<bool, 4> listed{};
+    for (std::size_t corner = 0; corner < 4; ++corner) listed[corner] = is_end(tetrahedra[t][corner]);
+    for (std::size_t edge = 0; edge < local_edges.size(); ++edge) {
+      const auto [a, b] = local_edges[edge];
+      if (listed[static_cast<std::size_t>(a)] && listed[static_cast<std::size_t>(b)])
+        found.push_back(midsides[t][edge]);
+    }
+  }
+  sort_unique(found);
 }
 
 }  // namespace
@@ -71,7 +94,8 @@ Selector read_selector(const TableEntry& entry) {
 }
 
 std::vector<std::int32_t> select(const Selector& selector, const std::vector<Vec3>& rest_positions,
-                                 IndexRange particles) {
+                                 IndexRange particles, std::span<const Tetrahedron> tetrahedra,
+                                 std::span<const Midsides> midsides) {
   const auto find = [&](const auto& what) {
     if constexpr (std::is_same_v<std::decay_t<decltype(what)>, NodeSelector>)
       return find_nodes(selector, what, particles);
@@ -79,6 +103,7 @@ std::vector<std::int32_t> select(const Selector& selector, const std::vector<Vec
       return find_inside(what, rest_positions, particles);
   };
   std::vector<std::int32_t> found = std::visit(find, selector.what);
+  if (std::holds_alternative<NodeSelector>(selector.what)) add_midsides(tetrahedra, midsides, found);
   if (found.empty()) refuse(selector.place, "selects no particle of the body");
   return found;
 }

@@ -1,4 +1,5 @@
-// How much the tetrahedra are squeezed or turned inside out: J = det F.
+// How much the tetrahedra are squeezed or turned inside out: J = det F, the smallest over the quadrature points of an
+// element.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <limits>
+#include <type_traits>
 
 #include "core/forces/model.h"
 #include "core/integrators/integrator.h"
@@ -14,67 +14,75 @@ using Kind = ParameterKind;
 constexpr Range count{1.0, 1e6, false, false};
 constexpr Range tolerance{0.0, 1.0, true, true};
 
-std::vector<std::string> integrator_names() {
+template <class Row>
+std::vector<std::string> names_of(std::span<const Row> rows) {
   std::vector<std::string> names;
-  for (const IntegratorRow& row : integrators()) names.emplace_back(row.name);
+  for (const Row& row : rows) names.emplace_back(row.name);
   return names;
 }
 
-// Rows whose value is one field: of the settings, of the model, or of a body.
-template <class Field>
-ParameterRow settings_row(std::string_view name, Kind kind, std::string_view unit, Range range,
-                          std::string_view description, Field field) {
-  using Value = std::remove_reference_t<decltype(field(std::declval<Settings&>()))>;
+template <class Value>
+constexpr Kind kind_of = std::is_same_v<Value, double> ? Kind::number
+                         : std::is_same_v<Value, int>  ? Kind::integer
+                         : std::is_same_v<Value, Vec3> ? Kind::vector
+                                                       : Kind::choice;
+
+// Name and scene key, where they differ.
+struct Names {
+  Names(std::string_view both) : name(both), scene_key(both) {}
+  Names(const char* both) : name(both), scene_key(both) {}
+  Names(std::string_view its_name, std::string_view its_key) : name(its_name), scene_key(its_key) {}
+  std::string_view name, scene_key;
+};
+
+// A row whose value is the field that access(model, settings, index) refers to.
+template <class Access>
+ParameterRow field_row(Scope scope, Names names, std::string_view unit, Range range, std::string_view description,
+                       Access access) {
+  using Value = std::remove_reference_t<std::invoke_result_t<Access, Model&, Settings&, std::size_t>>;
   using Stored = std::conditional_t<std::is_same_v<Value, int>, std::int64_t, Value>;
-  return {Scope::scene,
-          name,
-          name,
-          kind,
-          unit,
-          range,
-          {},
-          true,
-          description,
-          [field](const Model&, const Settings& settings, std::size_t) -> ParameterValue {
-            return static_cast<Stored>(field(const_cast<Settings&>(settings)));
-          },
-          [field](Model&, Settings& settings, std::size_t, const ParameterValue& value) {
-            field(settings) = static_cast<Value>(std::get<Stored>(value));
-          }};
+  ParameterRow row;
+  row.scope = scope;
+  row.name = names.name;
+  row.scene_key = names.scene_key;
+  row.kind = kind_of<Value>;
+  row.unit = unit;
+  row.range = range;
+  row.description = description;
+  row.get = [access](const Model& model, const Settings& settings, std::size_t index) -> ParameterValue {
+    return static_cast<Stored>(access(const_cast<Model&>(model), const_cast<Settings&>(settings), index));
+  };
+  row.set = [access](Model& model, Settings& settings, std::size_t index, const ParameterValue& value) {
+    access(model, settings, index) = static_cast<Value>(std::get<Stored>(value));
+  };
+  return row;
 }
 
-ParameterRow body_row(Scope scope, std::string_view name, std::string_view scene_key, std::string_view unit,
-                      Range range, std::string_view description, double Body::*field) {
-  return {scope,
-          name,
-          scene_key,
-          Kind::number,
-          unit,
-          range,
-          {},
-          true,
-          description,
-          [field](const Model& model, const Settings&, std::size_t body) -> ParameterValue {
-            return model.bodies[body].*field;
-          },
-          [field](Model& model, Settings&, std::size_t body, const ParameterValue& value) {
-            model.bodies[body].*field = std::get<double>(value);
-          }};
+template <class Value, class Part>
+ParameterRow settings_row(Names names, std::string_view unit, Range range, std::string_view description,
+                          Part Settings::*part, Value Part::*field) {
+  return field_row(Scope::scene, names, unit, range, description,
+                   [=](Model&, Settings& settings, std::size_t) -> Value& { return settings.*part.*field; });
 }
 
-ParameterRow gravity_row() {
-  return {
-      Scope::scene,
-      "gravity",
-      "gravity",
-      Kind::vector,
-      "m/s^2",
-      ranges::any,
-      {},
-      true,
-      "acceleration of everything that has mass",
-      [](const Model& model, const Settings&, std::size_t) -> ParameterValue { return model.gravity; },
-      [](Model& model, Settings&, std::size_t, const ParameterValue& value) { model.gravity = std::get<Vec3>(value); }};
+ParameterRow body_row(Scope scope, Names names, std::string_view unit, Range range, std::string_view description,
+                      double Body::*field) {
+  return field_row(scope, names, unit, range, description,
+                   [=](Model& model, Settings&, std::size_t body) -> double& { return model.bodies[body].*field; });
+}
+
+template <class Value>
+ParameterRow obstacle_row(Scope scope, Names names, std::string_view unit, Range range, std::string_view description,
+                          Value Obstacle::*field) {
+  return field_row(scope, names, unit, range, description,
+                   [=](Model& model, Settings&, std::size_t i) -> Value& { return model.obstacles[i].*field; });
+}
+
+template <class Value>
+ParameterRow handle_row(Names names, std::string_view unit, Range range, std::string_view description,
+                        Value Handle::*field) {
+  return field_row(Scope::handle, names, unit, range, description,
+                   [=](Model& model, Settings&, std::size_t i) -> Value& { return model.handles[i].*field; });
 }
 
 ParameterRow with_choices(ParameterRow row, std::vector<std::string> choices) {
@@ -82,51 +90,128 @@ ParameterRow with_choices(ParameterRow row, std::vector<std::string> choices) {
   return row;
 }
 
-std::vector<ParameterRow> make_rows() {
-  std::vector<ParameterRow> rows;
-  rows.push_back(gravity_row());
-  rows.push_back(settings_row("time.step", Kind::number, "s", ranges::positive, "time that one step covers",
-                              [](Settings& s) -> double& { return s.time.step; }));
-  rows.push_back(
-      with_choices(settings_row("time.integrator", Kind::choice, "", ranges::any, "scheme that takes the steps",
-                                [](Settings& s) -> std::string& { return s.time.integrator; }),
-                   integrator_names()));
-  rows.push_back(settings_row("time.substeps", Kind::integer, "", count, "integrator steps per step",
-                              [](Settings& s) -> int& { return s.time.substeps; }));
-  rows.push_back(
-      with_choices(settings_row("solver.linear", Kind::choice, "", ranges::any, "linear solver of implicit schemes",
-                                [](Settings& s) -> std::string& { return s.solver.linear; }),
-                   {"auto", "pcg", "ldlt"}));
-  rows.push_back(settings_row("solver.linear_tolerance", Kind::number, "", tolerance,
-                              "relative residual at which pcg ends",
-                              [](Settings& s) -> double& { return s.solver.linear_tolerance; }));
-  rows.push_back(settings_row("solver.newton_iterations", Kind::integer, "", count,
-                              "Newton iterations a step at most; 1: linearly implicit",
-                              [](Settings& s) -> int& { return s.solver.newton_iterations; }));
-  rows.push_back(settings_row("solver.newton_tolerance", Kind::number, "", tolerance,
-                              "norm of the residual over the norms of its terms",
-                              [](Settings& s) -> double& { return s.solver.newton_tolerance; }));
-  rows.push_back(settings_row("stream.every", Kind::integer, "", count, "publish every n-th step",
-                              [](Settings& s) -> int& { return s.stream.every; }));
+// To be read only.
+ParameterRow fixed(ParameterRow row) {
+  row.live = false;
+  row.set = [](Model&, Settings&, std::size_t, const ParameterValue&) {};
+  return row;
+}
 
+ParameterRow law_row() {
+  ParameterRow row;
+  row.scope = Scope::fem_body;
+  row.name = "law";
+  row.scene_key = "material.law";
+  row.kind = Kind::choice;
+  row.choices = names_of(laws());
+  row.description = "elastic law";
+  row.get = [](const Model& model, const Settings&, std::size_t body) -> ParameterValue {
+    return std::string(model.bodies[body].law->name);
+  };
+  row.set = [](Model& model, Settings&, std::size_t body, const ParameterValue& value) {
+    model.bodies[body].law = find_law(std::get<std::string>(value));
+  };
+  return row;
+}
+
+ParameterRow element_row() {
+  ParameterRow row;
+  row.scope = Scope::fem_body;
+  row.name = "element";
+  row.scene_key = "element";
+  row.kind = Kind::choice;
+  row.choices = {"tet4", "tet10"};
+  row.description = "linear or quadratic tetrahedra";
+  row.get = [](const Model& model, const Settings&, std::size_t body) -> ParameterValue {
+    return std::string(model.bodies[body].is_quadratic() ? "tet10" : "tet4");
+  };
+  return fixed(std::move(row));
+}
+
+void add_scene_rows(std::vector<ParameterRow>& rows) {
+  const auto time = &Settings::time;
+  const auto solver = &Settings::solver;
+  const auto stream = &Settings::stream;
+  rows.push_back(field_row(Scope::scene, "gravity", "m/s^2", ranges::any, "acceleration of everything that has mass",
+                           [](Model& model, Settings&, std::size_t) -> Vec3& { return model.gravity; }));
   rows.push_back(
-      body_row(Scope::fem_body, "young", "material.young", "Pa", ranges::positive, "Young's modulus", &Body::young));
+      settings_row("time.step", "s", ranges::positive, "time that one step covers", time, &TimeSettings::step));
+  rows.push_back(with_choices(
+      settings_row("time.integrator", "", ranges::any, "scheme that takes the steps", time, &TimeSettings::integrator),
+      names_of(integrators())));
+  rows.push_back(settings_row("time.substeps", "", count, "integrator steps per step", time, &TimeSettings::substeps));
+  rows.push_back(with_choices(settings_row("solver.linear", "", ranges::any, "linear solver of implicit schemes",
+                                           solver, &SolverSettings::linear),
+                              {"auto", "pcg", "ldlt"}));
+  rows.push_back(settings_row("solver.linear_tolerance", "", tolerance, "relative residual at which pcg ends", solver,
+                              &SolverSettings::linear_tolerance));
+  rows.push_back(settings_row("solver.newton_iterations", "", count,
+                              "Newton iterations a step at most; 1: linearly implicit", solver,
+                              &SolverSettings::newton_iterations));
+  rows.push_back(settings_row("solver.newton_tolerance", "", tolerance,
+                              "norm of the residual over the norms of its terms", solver,
+                              &SolverSettings::newton_tolerance));
+  rows.push_back(settings_row("solver.iterations", "", count, "sweeps a step of position-based schemes", solver,
+                              &SolverSettings::iterations));
+  rows.push_back(settings_row("stream.every", "", count, "publish every n-th step", stream, &StreamSettings::every));
+  rows.push_back(fixed(with_choices(
+      settings_row("stream.precision", "", ranges::any, "of what is published", stream, &StreamSettings::precision),
+      {"float32", "float64"})));
+}
+
+void add_body_rows(std::vector<ParameterRow>& rows) {
+  rows.push_back(law_row());
   rows.push_back(
-      body_row(Scope::fem_body, "poisson", "material.poisson", "", ranges::poisson, "Poisson's ratio", &Body::poisson));
-  rows.push_back(body_row(Scope::fem_body, "density", "material.density", "kg/m^3", ranges::positive, "density at rest",
-                          &Body::density));
-  rows.push_back(body_row(Scope::fem_body, "damping.stiffness", "damping.stiffness", "s", ranges::non_negative,
-                          "Kelvin-Voigt damping time", &Body::stiffness_damping));
-  rows.push_back(body_row(Scope::spring_body, "stiffness", "springs.stiffness", "N", ranges::non_negative,
+      body_row(Scope::fem_body, {"young", "material.young"}, "Pa", ranges::positive, "Young's modulus", &Body::young));
+  rows.push_back(body_row(Scope::fem_body, {"poisson", "material.poisson"}, "", ranges::poisson, "Poisson's ratio",
+                          &Body::poisson));
+  rows.push_back(body_row(Scope::fem_body, {"density", "material.density"}, "kg/m^3", ranges::positive,
+                          "density at rest", &Body::density));
+  rows.push_back(body_row(Scope::fem_body, "damping.stiffness", "s", ranges::non_negative, "Kelvin-Voigt damping time",
+                          &Body::stiffness_damping));
+  rows.push_back(element_row());
+  rows.push_back(body_row(Scope::spring_body, {"stiffness", "springs.stiffness"}, "N", ranges::non_negative,
                           "k_s of every spring: force per relative extension", &Body::stiffness));
-  rows.push_back(body_row(Scope::spring_body, "damping", "springs.damping", "N.s", ranges::non_negative,
+  rows.push_back(body_row(Scope::spring_body, {"damping", "springs.damping"}, "N.s", ranges::non_negative,
                           "k_d of every spring", &Body::damping));
-  rows.push_back(body_row(Scope::spring_body, "mass", "mass", "kg", ranges::positive, "mass of every particle",
-                          &Body::particle_mass));
-  rows.push_back(body_row(Scope::any_body, "damping.mass", "damping.mass", "1/s", ranges::non_negative,
+  rows.push_back(
+      body_row(Scope::spring_body, "mass", "kg", ranges::positive, "mass of every particle", &Body::particle_mass));
+  rows.push_back(body_row(Scope::any_body, "damping.mass", "1/s", ranges::non_negative,
                           "mass-proportional damping rate", &Body::mass_damping));
   rows.push_back(
-      body_row(Scope::any_body, "drag", "drag", "N.s/m", ranges::non_negative, "drag on every particle", &Body::drag));
+      body_row(Scope::any_body, "drag", "N.s/m", ranges::non_negative, "drag on every particle", &Body::drag));
+}
+
+void add_obstacle_rows(std::vector<ParameterRow>& rows) {
+  rows.push_back(obstacle_row(Scope::any_obstacle, "friction", "", ranges::non_negative, "Coulomb's coefficient",
+                              &Obstacle::friction));
+  rows.push_back(obstacle_row(Scope::any_obstacle, "stiffness", "N/m", ranges::non_negative,
+                              "force per depth on a particle; 0: chosen by the engine", &Obstacle::stiffness));
+  rows.push_back(obstacle_row(Scope::plane, "point", "m", ranges::any, "a point of the plane", &Obstacle::point));
+  rows.push_back(
+      obstacle_row(Scope::plane, "normal", "", ranges::any, "into the free side, any length but 0", &Obstacle::normal));
+  rows.push_back(obstacle_row(Scope::sphere, "center", "m", ranges::any, "centre of the sphere", &Obstacle::center));
+  rows.push_back(
+      obstacle_row(Scope::sphere, "radius", "m", ranges::positive, "radius of the sphere", &Obstacle::radius));
+  rows.push_back(obstacle_row(Scope::box, "lo", "m", ranges::any, "lower corner of the box", &Obstacle::lo));
+  rows.push_back(obstacle_row(Scope::box, "hi", "m", ranges::any, "upper corner of the box", &Obstacle::hi));
+}
+
+void add_handle_rows(std::vector<ParameterRow>& rows) {
+  rows.push_back(handle_row("translate", "m", ranges::any, "how far it moves", &Handle::translate));
+  rows.push_back(handle_row("rotate", "rad", ranges::any, "rotation vector of its turn", &Handle::rotate));
+  rows.push_back(handle_row("about", "m", ranges::any, "the point it turns about, before it moves", &Handle::about));
+  rows.push_back(handle_row("start", "s", ranges::non_negative, "when the motion begins", &Handle::start));
+  rows.push_back(
+      handle_row("duration", "s", ranges::non_negative, "how long the motion takes; 0: at once", &Handle::duration));
+}
+
+std::vector<ParameterRow> make_rows() {
+  std::vector<ParameterRow> rows;
+  add_scene_rows(rows);
+  add_body_rows(rows);
+  add_obstacle_rows(rows);
+  add_handle_rows(rows);
   return rows;
 }
 

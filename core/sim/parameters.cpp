@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "core/base/checks.h"
+#include "core/forces/model.h"
 
 namespace flexcast {
 namespace {
+
+using Scope = ParameterRow::Scope;
 
 std::string number_text(double value) {
   if (std::isnan(value)) return "nan";
@@ -60,17 +63,88 @@ Error make_error(const std::string& name, const ParameterRow& row, const Paramet
   return {name + " = " + to_text(value) + " is not allowed: expected " + expected_text(row)};
 }
 
+Scope scope_of(Obstacle::Shape shape) {
+  switch (shape) {
+    case Obstacle::Shape::plane:
+      return Scope::plane;
+    case Obstacle::Shape::sphere:
+      return Scope::sphere;
+    case Obstacle::Shape::box:
+      break;
+  }
+  return Scope::box;
+}
+
 }  // namespace
 
-const ParameterRow& parameter_row(ParameterRow::Scope scope, std::string_view scene_key) {
+bool has_rows_of(Scope thing, Scope row) {
+  switch (row) {
+    case Scope::any_body:
+      return thing == Scope::fem_body || thing == Scope::spring_body;
+    case Scope::any_obstacle:
+      return thing == Scope::plane || thing == Scope::sphere || thing == Scope::box;
+    default:
+      return thing == row;
+  }
+}
+
+std::string parameter_prefix(Scope scope, std::string_view owner) {
+  switch (scope) {
+    case Scope::scene:
+      return "";
+    case Scope::fem_body:
+    case Scope::spring_body:
+    case Scope::any_body:
+      return std::string(owner) + ".";
+    case Scope::plane:
+    case Scope::sphere:
+    case Scope::box:
+    case Scope::any_obstacle:
+      return "contact." + std::string(owner) + ".";
+    case Scope::handle:
+      break;
+  }
+  return "handle." + std::string(owner) + ".";
+}
+
+const ParameterRow& parameter_row(Scope scope, std::string_view scene_key) {
   const auto rows = parameter_rows();
-  const bool of_body = scope != ParameterRow::Scope::scene;
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const ParameterRow& row) {
-    return row.scene_key == scene_key &&
-           (row.scope == scope || (of_body && row.scope == ParameterRow::Scope::any_body));
+    return row.scene_key == scene_key && has_rows_of(scope, row.scope);
   });
   FLEXCAST_CHECK(found != rows.end());
   return *found;
+}
+
+std::vector<ParameterDescriptor> make_descriptors(const Model& model, const Settings& settings) {
+  std::vector<ParameterDescriptor> descriptors;
+  const auto add = [&](Scope scope, std::string_view owner, std::size_t index) {
+    for (const ParameterRow& row : parameter_rows()) {
+      if (!has_rows_of(scope, row.scope)) continue;
+      descriptors.push_back(
+          {parameter_prefix(scope, owner) + std::string(row.name), &row, index, row.get(model, settings, index)});
+    }
+  };
+  add(Scope::scene, "", 0);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    add(model.bodies[i].is_fem() ? Scope::fem_body : Scope::spring_body, model.bodies[i].name, i);
+  for (std::size_t i = 0; i < model.obstacles.size(); ++i)
+    add(scope_of(model.obstacles[i].shape), model.obstacles[i].name, i);
+  for (std::size_t i = 0; i < model.handles.size(); ++i) add(Scope::handle, model.handles[i].name, i);
+  return descriptors;
+}
+
+Result<void> check_model(const Model& model) {
+  for (const Obstacle& obstacle : model.obstacles) {
+    const std::string prefix = parameter_prefix(Scope::any_obstacle, obstacle.name);
+    if (obstacle.shape == Obstacle::Shape::plane && obstacle.normal == Vec3::Zero())
+      return Error{prefix + "normal = " + to_text(obstacle.normal) +
+                   " is not allowed: expected a vector that is not zero"};
+    if (obstacle.shape == Obstacle::Shape::box && !(obstacle.lo.array() < obstacle.hi.array()).all())
+      return Error{prefix + "lo = " + to_text(obstacle.lo) + " is not allowed: expected less than " + prefix +
+                   "hi = " + to_text(obstacle.hi) + " along every axis"};
+  }
+  return {};
 }
 
 Result<ParameterValue> convert_parameter(const std::string& name, const ParameterRow& row,

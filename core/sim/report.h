@@ -13,9 +13,10 @@ namespace flexcast {
 struct StepReport {
   std::int64_t step = 0;
   double time = 0.0;  // s
-  // J. gravity = -sum m g.x; work: of dead forces, and the jumps of live parameter changes; dissipated: by damping.
+  // J. gravity = -sum m g.x; work: of dead forces, handles, grabs, and the jumps of live parameter changes; dissipated:
+  // by damping and friction. kinetic + elastic + gravity + contact - work + dissipated - numerical is constant.
   double kinetic = 0.0, elastic = 0.0, gravity = 0.0, contact = 0.0, work = 0.0, dissipated = 0.0;
-  std::optional<double> numerical;       // J, the scheme's own loss; absent: not computed
+  double numerical = 0.0;                // J, the scheme's own gain (+) or loss (-); see energy_books.h
   Vec3 momentum = Vec3::Zero();          // kg.m/s
   Vec3 angular_momentum = Vec3::Zero();  // kg.m^2/s, about the world's origin
   StepStatistics statistics;
@@ -32,6 +33,13 @@ struct BodyReport {
   std::optional<double> min_j;
   std::int64_t inverted = 0;
   Vec3 center_of_mass = Vec3::Zero();
+};
+
+// What a handle exerts on its body to move it as it does.
+struct HandleReport {
+  std::string name;
+  Vec3 force = Vec3::Zero();   // N
+  Vec3 torque = Vec3::Zero();  // N.m, about the moved `about`
 };
 
 // Why a step was refused. The state is the last good one.

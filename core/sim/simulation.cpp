@@ -9,28 +9,13 @@
 #include "core/integrators/integrator.h"
 #include "core/sim/element_health.h"
 #include "core/sim/failure_search.h"
+#include "core/sim/largest_mode.h"
 #include "core/sim/state_hash.h"
 
 namespace flexcast {
 namespace {
 
-std::vector<ParameterDescriptor> make_descriptors(const Model& model, const Settings& settings) {
-  using Scope = ParameterRow::Scope;
-  std::vector<ParameterDescriptor> descriptors;
-  for (const ParameterRow& row : parameter_rows()) {
-    if (row.scope == Scope::scene) descriptors.push_back({std::string(row.name), &row, 0, row.get(model, settings, 0)});
-  }
-  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
-    for (const ParameterRow& row : parameter_rows()) {
-      const bool fits = row.scope == Scope::any_body ||
-                        row.scope == (model.bodies[body].is_fem() ? Scope::fem_body : Scope::spring_body);
-      if (!fits) continue;
-      const std::string name = model.bodies[body].name + "." + std::string(row.name);
-      descriptors.push_back({name, &row, body, row.get(model, settings, body)});
-    }
-  }
-  return descriptors;
-}
+constexpr std::int64_t modes_last_for = 500;  // steps
 
 }  // namespace
 
@@ -45,30 +30,59 @@ Simulation::Simulation(Model model, Settings settings, State initial, std::vecto
   FLEXCAST_CHECK(initial_.velocities.size() == model_->rest_positions.size());
   FLEXCAST_CHECK(static_cast<std::int64_t>(model_->fixed.size()) == model_->rest_positions.size());
   update_masses(*model_);
+  model_->jump_time = initial_.time;
   system_ = std::make_unique<System>(*model_);
   initial_.velocities = initial_.velocities.cwiseProduct(system_->free());
+  system_->prescribe(initial_.time, initial_.positions, initial_.velocities);
+  fingerprint_ = calc_fingerprint(*model_, initial_);
   state_ = initial_;
   base_step_ = initial_.step;
   base_time_ = initial_.time;
   parameters_ = make_descriptors(*model_, settings_);
-  refresh();
+  refresh({});
+  book_start();
 }
 
 Simulation::~Simulation() = default;
 
-// What follows from model and settings is made anew, so that a changed scene is a scene loaded that way.
-void Simulation::refresh() {
+// Masses, active forces, where handles are.
+void Simulation::follow_model() {
   update_masses(*model_);
+  model_->jump_time = state_.time;
   system_->refresh();
-  integrator_ = find_integrator(settings_.time.integrator)->make(*system_, settings_.solver);
-  power_ = calc_dissipated_power();
+  system_->prescribe(state_.time, state_.positions, state_.velocities);
+  modes_.clear();
 }
 
-double Simulation::calc_dissipated_power() const {
-  if (!system_->has_damping()) return 0.0;
-  VecX force;
-  system_->calc_damping(state_.positions, state_.velocities, force);
-  return -force.dot(state_.velocities);
+// What follows from model and settings is made anew, so that a changed scene is a scene loaded that way.
+void Simulation::refresh(const VecX& history) {
+  follow_model();
+  integrator_ = find_integrator(settings_.time.integrator)->make(*system_, settings_.solver);
+  integrator_->set_history(history);
+}
+
+void Simulation::book_start() {
+  books_ = {};
+  books_.start_potential = system_->calc_potential(state_.positions);
+  books_.start_external = system_->calc_energy(EnergyKind::external, state_.positions);
+}
+
+template <class Change>
+void Simulation::book_jump(Change change) {
+  const auto add = [this](double sign) {
+    const double external = system_->calc_energy(EnergyKind::external, state_.positions);
+    const double potential = system_->calc_potential(state_.positions);
+    books_.jump += sign * (system_->calc_kinetic(state_.velocities) + potential - external);
+    books_.potential_jump += sign * potential;
+    books_.external_jump += sign * external;
+  };
+  add(-1.0);
+  change();
+  add(1.0);
+}
+
+double Simulation::time_at(std::int64_t step) const {
+  return base_time_ + static_cast<double>(step - base_step_) * settings_.time.step;
 }
 
 bool Simulation::step() {
@@ -76,20 +90,38 @@ bool Simulation::step() {
   before_.positions = state_.positions;
   before_.velocities = state_.velocities;
   statistics_ = {};
-  const double h = settings_.time.step / settings_.time.substeps;
-  for (int i = 0; i < settings_.time.substeps; ++i) integrator_->step(*system_, h, state_, statistics_);
+  const double start = state_.time, h = settings_.time.step / settings_.time.substeps;
+  for (int i = 0; i < settings_.time.substeps; ++i) {
+    state_.time = start + i * h;
+    integrator_->step(*system_, h, state_, statistics_);
+  }
+  state_.time = start;
   if (!is_publishable(state_) || !std::isfinite(statistics_.residual)) {
     note_failure();
     return false;
   }
   ++state_.step;
-  state_.time = base_time_ + static_cast<double>(state_.step - base_step_) * settings_.time.step;
-  if (system_->has_damping()) {
-    const double power = calc_dissipated_power();
-    dissipated_ += 0.5 * settings_.time.step * (power_ + power);
-    power_ = power;
-  }
+  state_.time = time_at(state_.step);
+  books_.force_work += statistics_.force_work;
+  books_.handle_work += statistics_.handle_work;
+  books_.dissipated += statistics_.dissipated;
+  if (system_->has_handles()) jump();
   return true;
+}
+
+// Handles without duration whose time has come.
+void Simulation::jump() {
+  const bool any = std::any_of(model_->handles.begin(), model_->handles.end(), [this](const Handle& handle) {
+    return handle.duration == 0.0 && calc_progress(handle, model_->jump_time) != calc_progress(handle, state_.time);
+  });
+  if (any) {
+    book_jump([this] {
+      model_->jump_time = state_.time;
+      system_->prescribe(state_.time, state_.positions, state_.velocities);
+    });
+    integrator_->invalidate();
+  }
+  model_->jump_time = state_.time;
 }
 
 void Simulation::note_failure() {
@@ -115,20 +147,23 @@ void Simulation::note_failure() {
 void Simulation::reset(bool keep_parameters) {
   failure_.reset();
   statistics_ = {};
-  state_ = initial_;
-  base_step_ = initial_.step;
-  base_time_ = initial_.time;
-  booked_work_ = 0.0;
-  dissipated_ = 0.0;
+  model_->grabs.clear();
   if (!keep_parameters) {
     std::vector<ParameterAssignment> scene_values;
     for (const ParameterDescriptor& descriptor : parameters_) {
       if (parameter(descriptor) != descriptor.initial) scene_values.push_back({descriptor.name, descriptor.initial});
     }
-    apply_values(scene_values);
+    for (const ParameterAssignment& assignment : scene_values) {
+      const ParameterDescriptor* descriptor = find_parameter(assignment.name);
+      descriptor->row->set(*model_, settings_, descriptor->index, assignment.value);
+    }
     if (!scene_values.empty()) ++parameter_revision_;
   }
-  refresh();
+  state_ = initial_;
+  base_step_ = initial_.step;
+  base_time_ = initial_.time;
+  refresh({});
+  book_start();
 }
 
 const ParameterDescriptor* Simulation::find_parameter(std::string_view name) const {
@@ -138,17 +173,11 @@ const ParameterDescriptor* Simulation::find_parameter(std::string_view name) con
 }
 
 ParameterValue Simulation::parameter(const ParameterDescriptor& descriptor) const {
-  return descriptor.row->get(*model_, settings_, descriptor.body);
+  return descriptor.row->get(*model_, settings_, descriptor.index);
 }
 
-void Simulation::apply_values(std::span<const ParameterAssignment> assignments) {
-  for (const ParameterAssignment& assignment : assignments) {
-    const ParameterDescriptor* descriptor = find_parameter(assignment.name);
-    descriptor->row->set(*model_, settings_, descriptor->body, assignment.value);
-  }
-}
-
-Result<void> Simulation::set_parameters(std::span<const ParameterAssignment> assignments) {
+Result<std::vector<ParameterAssignment>> Simulation::convert_values(
+    std::span<const ParameterAssignment> assignments) const {
   std::vector<ParameterAssignment> converted;
   for (const ParameterAssignment& assignment : assignments) {
     const ParameterDescriptor* descriptor = find_parameter(assignment.name);
@@ -158,20 +187,126 @@ Result<void> Simulation::set_parameters(std::span<const ParameterAssignment> ass
     if (!value) return value.error();
     converted.push_back({assignment.name, std::move(value).value()});
   }
-  const auto calc_total = [this] {
-    return system_->calc_kinetic(state_.velocities) + system_->calc_energy(EnergyKind::elastic, state_.positions) +
-           system_->calc_energy(EnergyKind::gravity, state_.positions);
+  return converted;
+}
+
+// Takes converted values; when together they are not allowed, everything stays as it was.
+Result<void> Simulation::apply_values(std::span<const ParameterAssignment> assignments) {
+  std::vector<ParameterAssignment> old;
+  const auto set = [this](const ParameterAssignment& assignment) {
+    const ParameterDescriptor* descriptor = find_parameter(assignment.name);
+    descriptor->row->set(*model_, settings_, descriptor->index, assignment.value);
   };
-  const double energy = calc_total();
+  for (const ParameterAssignment& assignment : assignments) {
+    old.push_back({assignment.name, parameter(*find_parameter(assignment.name))});
+    set(assignment);
+  }
+  auto checked = check_model(*model_);
+  if (!checked) std::for_each(old.rbegin(), old.rend(), set);
+  return checked;
+}
+
+Result<void> Simulation::set_parameters(std::span<const ParameterAssignment> assignments) {
+  const auto converted = convert_values(assignments);
+  if (!converted) return converted.error();
   const TimeSettings old = settings_.time;
-  apply_values(converted);
+  const VecX history = integrator_->history();
+  Result<void> applied;
+  book_jump([&] {
+    applied = apply_values(converted.value());
+    if (applied) follow_model();
+  });
+  if (!applied) return applied;
   if (settings_.time.step != old.step) {
     base_step_ = state_.step;
     base_time_ = state_.time;
   }
   failure_.reset();
-  refresh();
-  booked_work_ += calc_total() - energy;
+  refresh(settings_.time.integrator == old.integrator ? history : VecX());
+  ++parameter_revision_;
+  return {};
+}
+
+double Simulation::choose_grab_stiffness(std::int32_t particle) const {
+  const Body& body = *find_body_of_particle(*model_, particle);
+  const double mass = model_->masses.segment(body.particles.first, body.particles.count).sum();
+  const double wanted = mass * 400.0;  // the body as a whole swings about the target with 20 rad/s
+  double fastest = 0.0;
+  for (const ModeBound& bound : system_->calc_mode_bounds()) fastest = std::max(fastest, bound.omega_squared);
+  return fastest > 0.0 ? std::min(wanted, fastest * model_->masses[particle]) : wanted;
+}
+
+Result<void> Simulation::grab(std::int64_t particle, const Vec3& target, double stiffness) {
+  if (particle < 0 || particle >= model_->particle_count()) {
+    return Error{"there is no particle " + std::to_string(particle) + " (allowed: 0 to " +
+                 std::to_string(model_->particle_count() - 1) + ")"};
+  }
+  if (!target.allFinite() || target.cwiseAbs().maxCoeff() > largest_magnitude) {
+    return Error{"the target " + to_text(ParameterValue(target)) + " m is out of range (allowed: finite numbers)"};
+  }
+  if (!ranges::non_negative.contains(stiffness)) {
+    return Error{"the stiffness " + to_text(ParameterValue(stiffness)) +
+                 " N/m is out of range (allowed: > 0, or 0 for one that fits)"};
+  }
+  const auto index = static_cast<std::int32_t>(particle);
+  if (Vec3(block3(system_->free(), particle)) != Vec3::Ones()) {
+    return Error{"particle " + std::to_string(particle) + " is held by a pin or a handle"};
+  }
+  book_jump([&] {
+    auto found = std::find_if(model_->grabs.begin(), model_->grabs.end(),
+                              [&](const Grab& grab) { return grab.particle == index; });
+    if (found == model_->grabs.end()) {
+      const double chosen = stiffness > 0.0 ? stiffness : choose_grab_stiffness(index);
+      model_->grabs.push_back({index, target, chosen});
+    } else {
+      found->target = target;
+      if (stiffness > 0.0) found->stiffness = stiffness;
+    }
+    follow_model();
+  });
+  integrator_->invalidate();
+  return {};
+}
+
+Result<void> Simulation::release(std::int64_t particle) {
+  const auto found = std::find_if(model_->grabs.begin(), model_->grabs.end(),
+                                  [&](const Grab& grab) { return grab.particle == particle; });
+  if (found == model_->grabs.end()) return Error{"particle " + std::to_string(particle) + " is not grabbed"};
+  book_jump([&] {
+    model_->grabs.erase(found);
+    follow_model();
+  });
+  integrator_->invalidate();
+  return {};
+}
+
+Checkpoint Simulation::save() const {
+  Checkpoint checkpoint{fingerprint_,           state_, base_step_,    base_time_,
+                        integrator_->history(), books_, model_->grabs, {}};
+  for (const ParameterDescriptor& descriptor : parameters_) {
+    if (descriptor.row->live) checkpoint.values.push_back({descriptor.name, parameter(descriptor)});
+  }
+  return checkpoint;
+}
+
+Result<void> Simulation::restore(const Checkpoint& checkpoint) {
+  const std::int64_t size = model_->rest_positions.size();
+  if (checkpoint.fingerprint != fingerprint_ || checkpoint.state.positions.size() != size ||
+      checkpoint.state.velocities.size() != size) {
+    return Error{"the checkpoint belongs to another scene, or to this one before it was changed"};
+  }
+  const auto converted = convert_values(checkpoint.values);
+  if (!converted) return Error{"the checkpoint does not fit: " + converted.error().message};
+  if (auto applied = apply_values(converted.value()); !applied) return applied;
+  failure_.reset();
+  statistics_ = {};
+  state_ = checkpoint.state;
+  base_step_ = checkpoint.base_step;
+  base_time_ = checkpoint.base_time;
+  model_->grabs = checkpoint.grabs;
+  refresh(checkpoint.history);
+  state_ = checkpoint.state;
+  books_ = checkpoint.books;
   ++parameter_revision_;
   return {};
 }
@@ -183,11 +318,11 @@ StepReport Simulation::calc_report() const {
   report.kinetic = system_->calc_kinetic(state_.velocities);
   report.elastic = system_->calc_energy(EnergyKind::elastic, state_.positions);
   report.gravity = system_->calc_energy(EnergyKind::gravity, state_.positions);
-  report.work = booked_work_;
-  if (model_->external_forces.size() > 0) {
-    report.work += model_->external_forces.dot(state_.positions - initial_.positions);
-  }
-  report.dissipated = dissipated_;
+  report.contact = system_->calc_energy(EnergyKind::contact, state_.positions);
+  const double external = system_->calc_energy(EnergyKind::external, state_.positions);
+  report.work = books_.calc_work(external);
+  report.dissipated = books_.dissipated;
+  report.numerical = books_.calc_numerical(report.elastic + report.gravity + report.contact + external);
   for (std::int64_t i = 0; i < model_->particle_count(); ++i) {
     const Vec3 momentum = model_->masses[i] * block3(state_.velocities, i);
     report.momentum += momentum;
@@ -221,14 +356,46 @@ std::vector<BodyReport> Simulation::calc_body_reports() const {
   return reports;
 }
 
+// m a - F over the handle's particles; without inertia -F.
+std::vector<HandleReport> Simulation::calc_handle_reports() const {
+  std::vector<HandleReport> reports;
+  if (model_->handles.empty()) return reports;
+  const bool inertia = settings_.time.integrator != "quasi_static";
+  VecX force;
+  system_->calc_force(state_.positions, state_.velocities, force);
+  for (const Handle& handle : model_->handles) {
+    const HandleMotion motion = system_->calc_motion(handle, state_.time);
+    HandleReport report{handle.name};
+    for (std::size_t i = 0; i < handle.particles.size(); ++i) {
+      const std::int32_t particle = handle.particles[i];
+      Vec3 reaction = -block3(force, particle);
+      if (inertia) reaction += model_->masses[particle] * motion.calc_acceleration(handle.base[i]);
+      report.force += reaction;
+      const Vec3 arm = block3(state_.positions, particle) - (motion.about + motion.translation);
+      report.torque += arm.cross(reaction);
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 std::uint64_t Simulation::calc_state_hash() const {
   return flexcast::calc_state_hash(state_);
 }
 
+const std::vector<ModeBound>& Simulation::modes() const {
+  if (modes_.empty() || state_.step - modes_step_ >= modes_last_for || state_.step < modes_step_) {
+    modes_ = calc_largest_modes(*system_, *model_, state_.positions);
+    modes_step_ = state_.step;
+  }
+  return modes_;
+}
+
 double Simulation::calc_stable_step() const {
   const IntegratorRow& row = *find_integrator(settings_.time.integrator);
+  if (row.implicit) return std::numeric_limits<double>::infinity();
   double limit = std::numeric_limits<double>::infinity();
-  for (const ModeBound& bound : system_->calc_mode_bounds()) {
+  for (const ModeBound& bound : modes()) {
     const double omega = std::sqrt(bound.omega_squared);
     if (omega == 0.0 && bound.damping_rate == 0.0) continue;
     // Damping shortens the step of some schemes and lengthens that of others.
@@ -249,9 +416,9 @@ std::vector<std::string> Simulation::calc_warnings() const {
     warnings.emplace_back(text);
   }
   for (const Body& body : model_->bodies) {
-    if (body.is_fem() && body.poisson >= 0.45) {
+    if (body.is_fem() && !body.is_quadratic() && body.poisson >= 0.45) {
       warnings.push_back(body.name + ": linear tetrahedra lock towards poisson = 0.5 (now " + to_text(body.poisson) +
-                         "): the body is stiffer than its material");
+                         "): the body is stiffer than its material; element = \"tet10\" is not");
     }
   }
   return warnings;

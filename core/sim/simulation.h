@@ -10,6 +10,8 @@
 
 #include "core/base/result.h"
 #include "core/forces/model.h"
+#include "core/sim/checkpoint.h"
+#include "core/sim/energy_books.h"
 #include "core/sim/parameters.h"
 #include "core/sim/report.h"
 #include "core/sim/settings.h"
@@ -19,6 +21,7 @@ namespace flexcast {
 
 class System;
 class Integrator;
+struct ModeBound;
 
 class Simulation {
  public:
@@ -46,12 +49,13 @@ class Simulation {
   // Energies, momenta and element health of the present state: a pass over everything, so only on demand.
   StepReport calc_report() const;
   std::vector<BodyReport> calc_body_reports() const;
+  std::vector<HandleReport> calc_handle_reports() const;
   // XXH3 (64 bit) over step (int64), positions, velocities (doubles, little endian).
   std::uint64_t calc_state_hash() const;
   // The longest step an explicit scheme may take, s, never above the true limit of the linearised scene; infinite for
   // schemes without one. margin = limit / (step / substeps).
   double calc_stable_step() const;
-  // Sentences about the present settings that a user should know: a margin below one.
+  // Sentences about the present settings that a user should know: a margin below one, elements that lock.
   std::vector<std::string> calc_warnings() const;
 
   const std::vector<ParameterDescriptor>& parameters() const { return parameters_; }
@@ -61,14 +65,37 @@ class Simulation {
   Result<void> set_parameters(std::span<const ParameterAssignment> assignments);
   std::uint64_t parameter_revision() const { return parameter_revision_; }  // from 1; never falls, not even at reset
 
+  // Pulls a particle of the world towards a target until it is released; a second grab of a particle moves its target.
+  // stiffness in N/m, 0: chosen so that the body follows within a second and explicit schemes stay stable. Errors: no
+  // such particle, a held one, numbers out of range.
+  Result<void> grab(std::int64_t particle, const Vec3& target, double stiffness = 0.0);
+  Result<void> release(std::int64_t particle);  // an error when it is not grabbed
+  const std::vector<Grab>& grabs() const { return model_->grabs; }
+
+  // Everything the next steps depend on. A simulation of the same scene that restores it goes on to the last bit as the
+  // one that saved it; the parameter revision grows. Errors: a checkpoint of another scene, a value that is not
+  // allowed.
+  Checkpoint save() const;
+  Result<void> restore(const Checkpoint& checkpoint);
+
   // Number of the step that ends nearest to `time`: round(time / step) counted from now on.
   std::int64_t step_at(double time) const;
 
  private:
-  void apply_values(std::span<const ParameterAssignment> assignments);
-  void refresh();
+  Result<void> apply_values(std::span<const ParameterAssignment> assignments);
+  Result<std::vector<ParameterAssignment>> convert_values(std::span<const ParameterAssignment> assignments) const;
+  void follow_model();
+  void refresh(const VecX& history);
+  void jump();
   void note_failure();
-  double calc_dissipated_power() const;
+  void book_start();
+  double choose_grab_stiffness(std::int32_t particle) const;
+  double time_at(std::int64_t step) const;
+  const std::vector<ModeBound>& modes() const;
+
+  // Runs `change` and books what it does to the energies.
+  template <class Change>
+  void book_jump(Change change);
 
   std::unique_ptr<Model> model_;  // has a stable address: the forces refer to it
   Settings settings_;
@@ -83,9 +110,11 @@ class Simulation {
   // Time is base_time_ + (step - base_step_) * dt, so that no error adds up; a changed dt moves the base.
   std::int64_t base_step_ = 0;
   double base_time_ = 0.0;
-  double booked_work_ = 0.0;  // J, jumps of parameter changes
-  double dissipated_ = 0.0;   // J
-  double power_ = 0.0;        // W, dissipated at the present state
+  EnergyBooks books_;
+  std::uint64_t fingerprint_ = 0;
+  // The largest modes, at the state where they were last asked for after a change or many steps.
+  mutable std::vector<ModeBound> modes_;
+  mutable std::int64_t modes_step_ = 0;
 };
 
 }  // namespace flexcast

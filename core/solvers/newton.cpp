@@ -27,7 +27,7 @@ bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hes
 
 // Armijo's rule with halving. Close to the minimum the values differ by less than their rounding: there a smaller
 // gradient counts as progress.
-bool NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& terms) {
+double NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& terms) {
   constexpr double sufficient = 1e-4, rounding = 1e-13;
   const double slope = gradient_.dot(direction_);
   const auto start = problem.calc_value(u);
@@ -44,9 +44,10 @@ bool NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& te
     u.swap(trial_);
     gradient_.swap(trial_gradient_);
     terms = trial_terms;
-    return true;
+    return length;
   }
-  return false;
+  terms = problem.calc_gradient(u, gradient_);
+  return 0.0;
 }
 
 NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u) {
@@ -66,8 +67,10 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
     if (settings_.newton_iterations == 1) {
       u += direction_;
       terms = problem.calc_gradient(u, gradient_);
-    } else if (!search_line(problem, u, terms)) {
-      return result;
+    } else {
+      const double length = search_line(problem, u, terms);
+      const bool go_on = problem.adapt(length);
+      if (length == 0.0 && !go_on) return result;
     }
   }
 }

@@ -18,6 +18,9 @@ class MinimizationProblem {
   virtual double calc_gradient(const VecX& u, VecX& gradient) = 0;
   // Exact, or a positive definite neighbour of it.
   virtual void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) = 0;
+  // Told after each line search how much of the direction was taken, 0: none. A problem that shifts its Hessians adapts
+  // them; true after 0: another direction is worth trying.
+  virtual bool adapt(double /*length*/) { return false; }
 };
 
 struct NewtonResult {
@@ -36,12 +39,15 @@ class NewtonSolver {
   // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it
   // takes the full Newton step, without a search: the linearly implicit schemes. `residual` then says how far from the
   // nonlinear solution that ends. A hessian that turns out indefinite is replaced by its positive definite neighbour.
+  // The problem's last calc_gradient was at the returned u, and gradient() is its result.
   NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u);
+  const VecX& gradient() const { return gradient_; }
 
  private:
   bool find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, const VecX& u,
                       NewtonResult& result);
-  bool search_line(MinimizationProblem& problem, VecX& u, double& terms);
+  // The length taken, 0: nothing on the line is better.
+  double search_line(MinimizationProblem& problem, VecX& u, double& terms);
 
   SolverSettings settings_;
   std::unique_ptr<LinearSolver> linear_;

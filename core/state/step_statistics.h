@@ -8,6 +8,10 @@ struct StepStatistics {
   int iterations = 0;         // nonlinear, summed over the substeps
   int linear_iterations = 0;  // summed
   bool converged = true;      // every solve of the step reached its tolerance; linearly implicit: the linear one
+
+  // J, summed over the substeps; the books of energies (report.h) are made of them. The forces' impulse times the mean
+  // velocity: what it adds to the kinetic energy. What handles put in. What damping and friction took, >= 0.
+  double force_work = 0.0, handle_work = 0.0, dissipated = 0.0;
 };
 
 }  // namespace flexcast

@@ -7,6 +7,7 @@
 
 #include "core/integrators/integrator.h"
 #include "core/materials/law.h"
+#include "core/scene/keys.h"
 #include "core/sim/parameters.h"
 
 namespace flexcast {
@@ -20,8 +21,9 @@ std::string readme() {
 TEST(Readme, ListsEveryParameterWithUnitRangeAndMeaning) {
   const std::string text = readme();
   for (const ParameterRow& row : parameter_rows()) {
-    const bool of_body = row.scope != ParameterRow::Scope::scene;
-    std::string start = "| `" + std::string(of_body ? "BODY." : "") + std::string(row.name) + "` | ";
+    const bool of_body = has_rows_of(ParameterRow::Scope::fem_body, row.scope) ||
+                         has_rows_of(ParameterRow::Scope::spring_body, row.scope);
+    std::string start = "| `" + parameter_prefix(row.scope, of_body ? "BODY" : "NAME") + std::string(row.name) + "` | ";
     if (!row.unit.empty()) start += std::string(row.unit) + " ";
     start += "| ";
     if (row.choices.empty()) start += row.range.text() + " | " + std::string(row.description) + " |";
@@ -30,11 +32,27 @@ TEST(Readme, ListsEveryParameterWithUnitRangeAndMeaning) {
   }
 }
 
+TEST(Readme, NamesEveryKeyOfScenes) {
+  const std::string text = readme();
+  const std::string table =
+      text.substr(text.find("| key | default |"), text.find("A selector is one of") - text.find("| key | default |"));
+  std::vector<std::string_view> keys;
+  for (const auto& part : {scene_keys(), body_keys(), contact_keys()})
+    keys.insert(keys.end(), part.begin(), part.end());
+  for (const std::string_view key : keys) {
+    const bool named = table.find("`" + std::string(key) + "`") != std::string::npos ||
+                       table.find("`[" + std::string(key) + "]`") != std::string::npos ||
+                       table.find("`[[" + std::string(key) + "]]`") != std::string::npos;
+    EXPECT_TRUE(named) << key;
+  }
+}
+
 TEST(Readme, ListsEveryIntegratorWithItsOrder) {
   const std::string text = readme();
   for (const IntegratorRow& row : integrators()) {
-    const std::string line =
-        "| `" + std::string(row.name) + "` | " + std::to_string(row.order) + " | " + std::string(row.summary) + " |";
+    const std::string line = "| `" + std::string(row.name) + "` | " +
+                             (row.order > 0 ? std::to_string(row.order) : "-") + " | " + std::string(row.summary) +
+                             " |";
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
 }

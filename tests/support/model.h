@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/generators.h"
+#include "core/mesh/quadratic.h"
 #include "core/sim/simulation.h"
 
 namespace flexcast::test {
@@ -72,6 +73,15 @@ inline Model make_tet_model(const Points& rest, const std::vector<Tetrahedron>& 
 
 inline Model make_beam_model(const Mesh& mesh, const Elastic& elastic) {
   return make_tet_model(mesh.nodes, mesh.tetrahedra, elastic);
+}
+
+// Ten-node tetrahedra, made from the mesh's.
+inline Model make_quadratic_model(Mesh mesh, const Elastic& elastic) {
+  const std::vector<Midsides> midsides = make_quadratic(mesh);
+  Model model = make_beam_model(mesh, elastic);
+  model.midsides = midsides;
+  model.bodies[0].midsides = {0, static_cast<std::int32_t>(midsides.size())};
+  return model;
 }
 
 inline Points corner_tet() {

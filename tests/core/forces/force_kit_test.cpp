@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <functional>
 
 #include "tests/support/dense.h"
 #include "tests/support/model.h"
@@ -12,10 +13,12 @@ namespace flexcast::test {
 namespace {
 
 struct ForceScene {
-  const char* name;
-  Model (*make)();
-  double force;      // N, what errors are measured against
-  double stiffness;  // N/m
+  std::string name;
+  std::function<Model()> make;
+  double force;              // N, what errors are measured against
+  double stiffness;          // N/m
+  bool isolated = true;      // nothing acts from outside
+  bool turns_freely = true;  // a rotation strains nothing
 };
 
 Model make_springs_only() {
@@ -25,6 +28,12 @@ Model make_springs_only() {
 
 Model make_tetrahedra_only(std::string_view law) {
   Model model = make_beam_model(make_beam({2, 1, 1}, {1.0, 0.5, 0.5}), {.law = law, .young = 2e4});
+  model.bodies[0].stiffness_damping = 1e-2;
+  return model;
+}
+
+Model make_quadratic_only(std::string_view law) {
+  Model model = make_quadratic_model(make_beam({2, 1, 1}, {1.0, 0.5, 0.5}), {.law = law, .young = 2e4});
   model.bodies[0].stiffness_damping = 1e-2;
   return model;
 }
@@ -39,12 +48,14 @@ Model make_everything() {
   return model;
 }
 
-const std::vector<ForceScene>& scenes() {
-  static const std::vector<ForceScene> list = {
-      {"springs", make_springs_only, 50.0, 200.0},
-      {"linear", [] { return make_tetrahedra_only("linear"); }, 2e4, 2e4},
-      {"corotational", [] { return make_tetrahedra_only("corotational"); }, 2e4, 2e4},
-      {"everything", make_everything, 2e4, 2e4}};
+std::vector<ForceScene> make_scenes() {
+  std::vector<ForceScene> list = {{"springs", make_springs_only, 50.0, 200.0},
+                                  {"everything", make_everything, 2e4, 2e4, false, false}};
+  for (const Law& law : laws()) {
+    const std::string name(law.name);
+    list.push_back({name, [name] { return make_tetrahedra_only(name); }, 2e4, 2e4, true, !law.small_strain});
+    list.push_back({name + "_tet10", [name] { return make_quadratic_only(name); }, 2e4, 2e4, true, !law.small_strain});
+  }
   return list;
 }
 
@@ -115,7 +126,8 @@ TEST_P(ForceKit, DampingIsItsMatrixTimesTheVelocityAndTakesEnergy) {
   system.add_damping_matrix(x_, 1.0, matrix);
   const Eigen::MatrixXd D = to_dense(matrix);
   VecX f;
-  system.calc_damping(x_, v_, f);
+  const double power = system.calc_damping(x_, v_, f);
+  EXPECT_NEAR(power, -f.dot(v_), 1e-12 * std::abs(power));
   EXPECT_LE((f + D * v_).cwiseAbs().maxCoeff(), 1e-12 * D.cwiseAbs().maxCoeff());
   EXPECT_LE((D - D.transpose()).cwiseAbs().maxCoeff(), 1e-13 * D.cwiseAbs().maxCoeff());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(D, Eigen::EigenvaluesOnly);
@@ -124,6 +136,33 @@ TEST_P(ForceKit, DampingIsItsMatrixTimesTheVelocityAndTakesEnergy) {
   system.calc_force(x_, v_, both);
   system.calc_conservative(x_, conservative);
   EXPECT_LE((both - conservative - f).cwiseAbs().maxCoeff(), 1e-12 * GetParam().force);
+}
+
+// Vertex block descent's view: what one particle feels, and how stiffly it is held when the others rest.
+TEST_P(ForceKit, BlocksAreTheRowsOfTheForceAndTheDiagonalOfTheMatrices) {
+  const System system(model_);
+  BlockMatrix stiffness = system.make_matrix(), damping = stiffness;
+  system.add_stiffness(x_, 1.0, Tangent::positive_semidefinite, stiffness);
+  system.add_damping_matrix(x_, 2.0, damping);
+  VecX f, f_damping;
+  system.calc_position_dependent(x_, f);
+  system.calc_damping(x_, v_, f_damping);
+
+  std::vector<std::int32_t> particles;
+  for (std::int32_t i = 0; i < stiffness.rows(); i += 2) particles.push_back(stiffness.rows() - 1 - i);
+  std::vector<Vec3> g(particles.size(), Vec3::Zero()), g_damping = g;
+  std::vector<Mat3> K(particles.size(), Mat3::Zero()), D = K;
+  for (const Force* force : system.active_forces()) {
+    if (!force->is_constant()) force->add_blocks(x_, particles, g, K);
+    force->add_damping_blocks(x_, v_, 2.0, particles, g_damping, D);
+  }
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const std::int32_t i = particles[k];
+    EXPECT_LE((g[k] - block3(f, i)).norm(), 1e-12 * GetParam().force);
+    EXPECT_LE((g_damping[k] - block3(f_damping, i)).norm(), 1e-12 * GetParam().force);
+    EXPECT_LE((K[k] - stiffness.diagonal(i)).cwiseAbs().maxCoeff(), 1e-12 * GetParam().stiffness);
+    EXPECT_LE((D[k] - damping.diagonal(i)).cwiseAbs().maxCoeff(), 1e-12 * GetParam().stiffness);
+  }
 }
 
 TEST_P(ForceKit, PartsOfTheConservativeForceSumUp) {
@@ -136,20 +175,24 @@ TEST_P(ForceKit, PartsOfTheConservativeForceSumUp) {
 }
 
 TEST_P(ForceKit, ModeBoundIsNotBelowTheLargestFrequencyAndNotFarAbove) {
-  const System system(model_);
-  const auto bounds = system.calc_mode_bounds();
-  ASSERT_EQ(bounds.size(), 1u);
-  const VecX roots = system.inverse_masses().cwiseSqrt();
-  const Eigen::MatrixXd scaled =
-      roots.asDiagonal() * calc_stiffness(model_, model_.rest_positions) * roots.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-  const double omega_squared = solver.eigenvalues().maxCoeff();
-  EXPECT_GE(bounds[0].omega_squared, omega_squared * (1 - 1e-12));
-  EXPECT_LE(bounds[0].omega_squared, omega_squared / 0.09);  // a step of at least 0.3 of the true limit
+  for (const bool held : {false, true}) {
+    if (held) std::fill_n(model_.fixed.begin(), 6, std::uint8_t{1});  // two particles, and one axis of a third
+    model_.fixed[8] = held ? 1 : 0;
+    const System system(model_);
+    const auto bounds = system.calc_mode_bounds();
+    ASSERT_EQ(bounds.size(), 1u);
+    const VecX roots = system.inverse_masses().cwiseSqrt();
+    const Eigen::MatrixXd scaled =
+        roots.asDiagonal() * calc_stiffness(model_, model_.rest_positions) * roots.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+    const double omega_squared = solver.eigenvalues().maxCoeff();
+    EXPECT_GE(bounds[0].omega_squared, omega_squared * (1 - 1e-12));
+    EXPECT_LE(bounds[0].omega_squared, omega_squared / 0.09);  // a step of at least 0.3 of the true limit
+  }
 }
 
 TEST_P(ForceKit, InternalForcesOfAFreeBodyHaveNoSumAndNoTorque) {
-  if (GetParam().make == make_everything) return;  // has external forces
+  if (!GetParam().isolated) return;
   const System system(model_);
   VecX conservative, damping;
   system.calc_conservative(x_, conservative);
@@ -161,7 +204,7 @@ TEST_P(ForceKit, InternalForcesOfAFreeBodyHaveNoSumAndNoTorque) {
       torque += block3(x_, i).cross(block3(f, i));
     }
     EXPECT_LE(sum.norm(), 1e-12 * GetParam().force);
-    if (std::string_view(GetParam().name) != "linear") {
+    if (GetParam().turns_freely) {
       EXPECT_LE(torque.norm(), 1e-11 * GetParam().force);
     }
   }
@@ -169,7 +212,7 @@ TEST_P(ForceKit, InternalForcesOfAFreeBodyHaveNoSumAndNoTorque) {
 
 // Damping inside a body does not slow down its rigid motion.
 TEST_P(ForceKit, InternalDampingLeavesRigidMotionAlone) {
-  if (GetParam().make == make_everything || std::string_view(GetParam().name) == "linear") return;  // they resist it
+  if (!GetParam().turns_freely) return;
   const System system(model_);
   VecX v(x_.size()), f;
   for (std::int64_t i = 0; i < model_.particle_count(); ++i) {
@@ -179,8 +222,8 @@ TEST_P(ForceKit, InternalDampingLeavesRigidMotionAlone) {
   EXPECT_LE(f.cwiseAbs().maxCoeff(), 1e-12 * GetParam().force);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryForce, ForceKit, testing::ValuesIn(scenes()),
-                         [](const auto& scene) { return std::string(scene.param.name); });
+INSTANTIATE_TEST_SUITE_P(EveryForce, ForceKit, testing::ValuesIn(make_scenes()),
+                         [](const auto& scene) { return scene.param.name; });
 
 TEST(System, IdleForcesAddNothing) {
   Model model = make_spring_model({{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {}, 1.0);
@@ -208,6 +251,17 @@ TEST(Model, MassesAreAQuarterOfEachTetrahedronAndOverridesWin) {
   Model beam = make_beam_model(mesh, {.density = 800.0});
   update_masses(beam);
   EXPECT_NEAR(beam.masses.sum(), 800.0 * 0.125, 1e-11);
+}
+
+TEST(Model, MassesOfQuadraticTetrahedraArePositiveAndSumUpToDensityTimesVolume) {
+  Model model = make_quadratic_model({corner_tet(), {{0, 1, 2, 3}}, {}, {}}, {.density = 648.0});
+  update_masses(model);  // 108 kg: 3 a corner, 16 a midside node
+  for (int corner = 0; corner < 4; ++corner) EXPECT_NEAR(model.masses[corner], 3.0, 1e-13);
+  for (int midside = 4; midside < 10; ++midside) EXPECT_NEAR(model.masses[midside], 16.0, 1e-13);
+  Model beam = make_quadratic_model(make_beam({3, 2, 2}, {1.0, 0.5, 0.25}), {.density = 800.0});
+  update_masses(beam);
+  EXPECT_NEAR(beam.masses.sum(), 800.0 * 0.125, 1e-11);
+  EXPECT_GT(beam.masses.minCoeff(), 0.0);
 }
 
 }  // namespace

@@ -27,8 +27,16 @@ class SchemeKit : public testing::TestWithParam<IntegratorRow> {
     const System system(model);
     const auto integrator = row_.make(system, tight());
     StepStatistics statistics;
-    for (int i = 0; i < steps; ++i) integrator->step(system, h, state, statistics);
+    for (int i = 0; i < steps; ++i) {
+      integrator->step(system, h, state, statistics);
+      state.time += h;
+    }
   }
+
+  // Schemes that know no time have no velocities; no order, no momentum to keep.
+  bool is_dynamic() const { return row_.name != "quasi_static"; }
+  // Iterates until it has solved its equations, or for a fixed number of times?
+  bool is_solved() const { return row_.order > 0; }
 };
 
 // A pair of 1 kg and 3 kg on a damped spring, turning and oscillating.
@@ -63,8 +71,10 @@ State thrown(const Model& model, std::uint64_t seed) {
 }
 
 TEST_P(SchemeKit, ConvergesWithItsOrderAlsoWithDamping) {
-  const double window = row_.order == 1 ? 0.1 : row_.order == 2 ? 0.15 : 0.5;
-  const double h = row_.order == 1 ? 5e-4 : row_.order == 2 ? 2e-3 : 4e-3;
+  if (!is_dynamic()) return;
+  const int order = std::max(row_.order, 1);  // what iterates is backward Euler here, where a spring is solved at once
+  const double window = order == 1 ? 0.1 : order == 2 ? 0.15 : 0.5;
+  const double h = order == 1 ? 5e-4 : order == 2 ? 2e-3 : 4e-3;
   for (const double damping : {0.0, 0.7}) {
     std::vector<VecX> ends;
     for (int level = 0; level < 4; ++level) {
@@ -75,13 +85,15 @@ TEST_P(SchemeKit, ConvergesWithItsOrderAlsoWithDamping) {
     }
     for (std::size_t i = 0; i < 2; ++i) {
       const double ratio = (ends[i] - ends[i + 1]).norm() / (ends[i + 1] - ends[i + 2]).norm();
-      EXPECT_NEAR(std::log2(ratio), row_.order, window)
-          << "k_d=" << damping << " h=" << std::ldexp(h, -static_cast<int>(i));
+      EXPECT_NEAR(std::log2(ratio), order, window) << "k_d=" << damping << " h=" << std::ldexp(h, -static_cast<int>(i));
     }
   }
 }
 
 TEST_P(SchemeKit, KeepsTheMomentumOfFreeBodiesWithInternalDamping) {
+  if (!is_dynamic()) return;
+  // Position-based schemes divide rounding by the step.
+  const double tolerance = is_solved() ? 1e-13 : 1e-10;
   for (Model model : {make_lattice_model(), make_fem_model(), make_fem_model("linear")}) {
     update_masses(model);
     State state = thrown(model, 21);
@@ -94,19 +106,29 @@ TEST_P(SchemeKit, KeepsTheMomentumOfFreeBodiesWithInternalDamping) {
     const Vec3 before = calc_momentum();
     const VecX v = state.velocities;
     run(model, state, 1e-3, 200);
-    EXPECT_LE((calc_momentum() - before).norm(), 1e-13 * before.norm());
+    EXPECT_LE((calc_momentum() - before).norm(), tolerance * before.norm());
     EXPECT_GT((state.velocities - v).norm(), 0.1);
   }
 }
 
-TEST_P(SchemeKit, GivesTheSameBitsTwiceAndRemembersNothing) {
+// A scheme of several steps hands its history on.
+TEST_P(SchemeKit, GivesTheSameBitsTwiceAndRemembersNothingButItsHistory) {
   for (Model model : {make_lattice_model(), make_fem_model()}) {
     update_masses(model);
     const State start = thrown(model, 22);
     State once = start, twice = start, forgetful = start;
     run(model, once, 1e-3, 50);
     run(model, twice, 1e-3, 50);
-    for (int i = 0; i < 50; ++i) run(model, forgetful, 1e-3, 1);
+    VecX history;
+    const System system(model);
+    for (int i = 0; i < 50; ++i) {
+      const auto integrator = row_.make(system, tight());
+      integrator->set_history(history);
+      StepStatistics statistics;
+      integrator->step(system, 1e-3, forgetful, statistics);
+      forgetful.time += 1e-3;
+      history = integrator->history();
+    }
     EXPECT_EQ(once.positions, twice.positions);
     EXPECT_EQ(once.velocities, twice.velocities);
     EXPECT_EQ(once.positions, forgetful.positions);
@@ -211,7 +233,8 @@ TEST_P(SchemeKit, LimitOfAnOverdampedDashpotIsFiniteAndPositive) {
   EXPECT_FALSE(std::isnan(limit));
   EXPECT_GT(limit, 0.0);
   if (!row_.implicit) {
-    EXPECT_NEAR(limit, row_.order == 4 ? 0.2785 : 0.2, 0.02);
+    // Roots of amplification = -1 in z = c h: 1 - z; Verlet 1 - z + z^2/2 - z^3/8; Runge-Kutta's polynomial.
+    EXPECT_NEAR(limit, row_.order == 4 ? 0.2785 : row_.order == 2 ? 0.3087 : 0.2, 1e-3);
   }
   EXPECT_TRUE(std::isinf(row_.calc_stable_step(0.0, 0.0)));
 }

@@ -1,4 +1,6 @@
 // --set PATH=VALUE: values over those of the file.
+#include <set>
+
 #include "tests/core/scene/scene_text.h"
 
 namespace flexcast::test {
@@ -31,13 +33,62 @@ TEST(Override, TakesNamesOfParameters) {
   EXPECT_EQ(body(scene, "beam").stiffness_damping, 0.125);
 }
 
+// With an obstacle of each shape and a handle.
+const std::string rich_scene = with_spring_lines(
+    "handle = [ { name = \"grip\", select = { nodes = [0] } } ]\n"
+    "[[contact]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
+    "[[contact]]\nname = \"ball\"\nshape = \"sphere\"\ncenter = [9, 0, 0]\nradius = 1.0\n"
+    "[[contact]]\nname = \"crate\"\nshape = \"box\"\nlo = [5, 0, 0]\nhi = [6, 1, 1]\n");
+
 TEST(Override, ReachesEveryParameterOfTheTable) {
-  const Scene scene = loaded(valid_scene);
+  const Scene scene = loaded(rich_scene);
+  std::set<const ParameterRow*> reached;
   for (const ParameterDescriptor& parameter : scene.simulation->parameters()) {
     const std::string assignment = parameter.name + "=" + to_text(scene.simulation->parameter(parameter));
-    const auto again = load(valid_scene, {assignment});
+    const auto again = load(rich_scene, {assignment});
     EXPECT_TRUE(again.ok()) << again.error().message;
+    reached.insert(parameter.row);
   }
+  EXPECT_EQ(reached.size(), parameter_rows().size());
+}
+
+TEST(Override, FindsContactsAndHandlesByTheirNames) {
+  const Scene scene = loaded(rich_scene, {"contact.ground.friction=0.5", "contact.ball.radius=2",
+                                          "contact.crate.hi=[7, 1, 1]", "handle.grip.translate=[0, 0, 1]",
+                                          "handle.grip.duration=3", "handle.grip.select={ nodes = [1, 2] }"});
+  const Model& model = scene.simulation->model();
+  EXPECT_EQ(model.obstacles[0].friction, 0.5);
+  EXPECT_EQ(model.obstacles[1].radius, 2.0);
+  EXPECT_EQ(model.obstacles[2].hi, Vec3(7, 1, 1));
+  EXPECT_EQ(model.handles[0].translate, Vec3(0, 0, 1));
+  EXPECT_EQ(model.handles[0].duration, 3.0);
+  EXPECT_EQ(model.handles[0].particles.size(), 2u);
+}
+
+TEST(Override, TakesElementAndLaw) {
+  const Scene scene = loaded(valid_scene, {"beam.element=tet10", "beam.law=corotational"});
+  EXPECT_TRUE(body(scene, "beam").is_quadratic());
+  EXPECT_EQ(body(scene, "beam").law, find_law("corotational"));
+}
+
+TEST(Override, TakesAllContactsAsAWhole) {
+  EXPECT_TRUE(loaded(rich_scene, {"contact=[]"}).simulation->model().obstacles.empty());
+}
+
+TEST(Override, OfAContactOrHandleThatIsNotThereSuggestsWhatThereIs) {
+  EXPECT_EQ(refusal(rich_scene, {"contact.grund.friction=1"}),
+            "--set contact.grund.friction=1: there is no contact grund (known: ground, ball, crate); did you mean "
+            "\"ground\"?");
+  EXPECT_EQ(refusal(rich_scene, {"handle.grap.start=1"}),
+            "--set handle.grap.start=1: there is no handle grap (known: grip); did you mean \"grip\"?");
+  EXPECT_EQ(refusal(valid_scene, {"contact.ground.friction=1"}),
+            "--set contact.ground.friction=1: there is no contact ground");
+  EXPECT_EQ(refusal(rich_scene, {"handle.grip=1"}), "--set handle.grip=1: expected handle.NAME.KEY=VALUE");
+  EXPECT_EQ(refusal(rich_scene, {"handle=1"}), "--set handle=1: expected handle.NAME.KEY=VALUE");
+  EXPECT_EQ(refusal(rich_scene, {"contact.ground.friction=-1"}),
+            "--set contact.ground.friction=-1: [[contact]] \"ground\": friction = -1 is out of range (allowed: >= 0)");
+  EXPECT_EQ(refusal(rich_scene, {"handle.grip.start=-1"}),
+            "--set handle.grip.start=-1: [[body]] \"cloth\": handle[0].start = -1 is out of range (allowed: >= 0, s)");
 }
 
 TEST(Override, TakesATableWhereTheFileHasOne) {
@@ -76,8 +127,8 @@ TEST(Override, IsNamedByTheErrorsItCauses) {
 
 TEST(Override, OfNothingKnownSuggestsWhatThereIs) {
   EXPECT_EQ(refusal(valid_scene, {"baem.young=5"}),
-            "--set baem.young=5: there is no baem (known: name, description, gravity, time, solver, stream, beam, "
-            "cloth, tip); did you mean \"beam\"?");
+            "--set baem.young=5: there is no baem (known: name, description, gravity, time, solver, contact, stream, "
+            "beam, cloth, tip); did you mean \"beam\"?");
 }
 
 TEST(Override, MustBePathAndValue) {

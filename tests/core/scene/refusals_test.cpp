@@ -78,8 +78,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"UnknownModel", "model = \"fem\"", "model = \"fen\"",
                 "test.toml:7: [[body]] \"beam\": model = \"fen\" is not known (allowed: \"fem\", \"mass_spring\"); did "
                 "you mean \"fem\"?"},
-        Refusal{"LaterElement", "model = \"fem\"", "model = \"fem\"\nelement = \"tet10\"",
-                "test.toml:8: [[body]] \"beam\": element = \"tet10\" is not known (allowed: \"tet4\")"},
+        Refusal{"UnknownElement", "model = \"fem\"", "model = \"fem\"\nelement = \"hex8\"",
+                "test.toml:8: [[body]] \"beam\": element = \"hex8\" is not known (allowed: \"tet4\", \"tet10\")"},
+        Refusal{"ElementOfSprings", "mass = 0.1", "mass = 0.1\nelement = \"tet10\"",
+                "test.toml:16: [[body]] \"cloth\": element = \"tet10\" belongs to model = \"fem\", not to this "
+                "body's"},
+        Refusal{"ZeroSweeps", "[time]", "[solver]\niterations = 0\n[time]",
+                "test.toml:4: solver.iterations = 0 is out of range (allowed: >= 1 and <= 1000000)"},
         Refusal{"ShapeWithoutTetrahedra", "shape = \"beam\", cells = [2, 1, 1]", "shape = \"lattice\", cells = [1]",
                 "test.toml:8: [[body]] \"beam\": mesh.shape = \"lattice\" has no tetrahedra, which model = \"fem\" "
                 "needs (allowed: \"beam\", or a file)"},
@@ -104,14 +109,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"UnknownTopKey", "gravity =", "gravty =",
                 "test.toml:2: unknown key gravty = [0.0, 0.0, -9.81] (allowed: name, description, gravity, time, "
-                "solver, body, probe, stream); did you mean \"gravity\"?"},
+                "solver, body, contact, probe, stream); did you mean \"gravity\"?"},
         Refusal{"UnknownTimeKey", "step = 0.001", "dt = 0.001",
                 "test.toml:4: unknown key time.dt = 0.001 (allowed: step, integrator, substeps, duration)"},
         Refusal{"LaterTimeKey", "step = 0.001", "tolerance = 1e-4",
                 "test.toml:4: unknown key time.tolerance = 1e-04 (allowed: step, integrator, substeps, duration)"},
-        Refusal{"LaterTable", "[time]", "[[contact]]\nname = \"ground\"\n[time]",
-                "test.toml:3: unknown key contact (allowed: name, description, gravity, time, solver, body, probe, "
-                "stream)"},
+        Refusal{"UnknownTable", "[time]", "[[contacts]]\nname = \"ground\"\n[time]",
+                "test.toml:3: unknown key contacts (allowed: name, description, gravity, time, solver, body, contact, "
+                "probe, stream); did you mean \"contact\"?"},
         Refusal{"UnknownMaterialKey", "young = 1e6", "yuong = 1e6",
                 "test.toml:9: [[body]] \"beam\": unknown key material.yuong = 1e+06 (allowed: law, young, poisson, "
                 "density); did you mean \"young\"?"},
@@ -191,6 +196,83 @@ INSTANTIATE_TEST_SUITE_P(
                 "test.toml:5: not valid TOML: Error while parsing key-value pair: cannot redefine existing "
                 "floating-point 'step'"}),
     claim);
+
+// Lines of a [[contact]] between bodies and probes: the table is line 16, its name 17.
+struct ContactRefusal {
+  const char* claim;
+  const char* lines;
+  const char* message;  // behind the file
+};
+
+void PrintTo(const ContactRefusal& refusal, std::ostream* out) {
+  *out << refusal.claim;
+}
+
+class ContactRefuses : public testing::TestWithParam<ContactRefusal> {};
+
+TEST_P(ContactRefuses, NamingFileLineKeyValueAndWhatIsAllowed) {
+  const std::string lines = "[[contact]]\nname = \"ground\"\n" + std::string(GetParam().lines);
+  EXPECT_EQ(refusal(with_spring_lines(lines)), "test.toml:" + std::string(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Contacts, ContactRefuses,
+    testing::Values(
+        ContactRefusal{"MissingShape", "",
+                       "16: [[contact]] \"ground\": missing key shape; expected one of \"plane\", \"sphere\", "
+                       "\"box\""},
+        ContactRefusal{"UnknownShape", "shape = \"plan\"",
+                       "18: [[contact]] \"ground\": shape = \"plan\" is not known (allowed: \"plane\", \"sphere\", "
+                       "\"box\"); did you mean \"plane\"?"},
+        ContactRefusal{"UnknownKey", "shape = \"plane\"\npoint = [0, 0, 0]\nnormals = [0, 0, 1]",
+                       "20: [[contact]] \"ground\": unknown key normals = [0, 0, 1] (allowed: name, shape, friction, "
+                       "stiffness, point, normal, center, radius, lo, hi); did you mean \"normal\"?"},
+        ContactRefusal{"KeyOfAnotherShape", "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1.0",
+                       "21: [[contact]] \"ground\": radius = 1.0 belongs to shape = \"sphere\", not to this "
+                       "contact's"},
+        ContactRefusal{"PlaneWithoutPoint", "shape = \"plane\"\nnormal = [0, 0, 1]",
+                       "16: [[contact]] \"ground\": missing key point; expected an array of 3 numbers (any finite "
+                       "number, m)"},
+        ContactRefusal{"PlaneWithoutNormal", "shape = \"plane\"\npoint = [0, 0, 0]",
+                       "16: [[contact]] \"ground\": missing key normal; expected an array of 3 numbers (any finite "
+                       "number)"},
+        ContactRefusal{"ZeroNormal", "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, -0.0]",
+                       "20: [[contact]] \"ground\": normal = [0, 0, -0.0] is zero; expected a vector that is not"},
+        ContactRefusal{"NanPoint", "shape = \"plane\"\npoint = [0, nan, 0]\nnormal = [0, 0, 1]",
+                       "19: [[contact]] \"ground\": point[1] = nan is out of range (allowed: any finite number, m)"},
+        ContactRefusal{"SphereWithoutCenter", "shape = \"sphere\"\nradius = 1.0",
+                       "16: [[contact]] \"ground\": missing key center; expected an array of 3 numbers (any finite "
+                       "number, m)"},
+        ContactRefusal{"SphereWithoutRadius", "shape = \"sphere\"\ncenter = [0, 0, 0]",
+                       "16: [[contact]] \"ground\": missing key radius; expected a number (> 0, m)"},
+        ContactRefusal{"ZeroRadius", "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0",
+                       "20: [[contact]] \"ground\": radius = 0 is out of range (allowed: > 0, m)"},
+        ContactRefusal{"BoxWithoutCorner", "shape = \"box\"\nlo = [0, 0, 0]",
+                       "16: [[contact]] \"ground\": missing key hi; expected an array of 3 numbers (any finite number, "
+                       "m)"},
+        ContactRefusal{"FlatBox", "shape = \"box\"\nlo = [0, 1, 0]\nhi = [1, 1, 1]",
+                       "19: [[contact]] \"ground\": lo = [0, 1, 0] is not below hi along y; expected lo < hi"},
+        ContactRefusal{"NegativeFriction", "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = -0.1",
+                       "21: [[contact]] \"ground\": friction = -0.1 is out of range (allowed: >= 0)"},
+        ContactRefusal{"NegativeStiffness",
+                       "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nstiffness = -1.0",
+                       "21: [[contact]] \"ground\": stiffness = -1.0 is out of range (allowed: >= 0, N/m)"},
+        ContactRefusal{"FrictionAsText",
+                       "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = \"rough\"",
+                       "21: [[contact]] \"ground\": friction = \"rough\" is a string; expected a number (>= 0)"},
+        ContactRefusal{"NameTwice",
+                       "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n[[contact]]\nname = \"ground\"\n"
+                       "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1.0",
+                       "21: [[contact]] \"ground\": name = \"ground\" is there twice; names must differ"}),
+    [](const auto& test) { return test.param.claim; });
+
+TEST(SceneRefusal, OfAContactWithoutNameNumbersIt) {
+  EXPECT_EQ(refusal(with_spring_lines("[[contact]]\nshape = \"plane\"")),
+            "test.toml:16: [[contact]] number 1: missing key name; expected a name (1 to 64 of A-Z, a-z, 0-9, _ and "
+            "-)");
+  EXPECT_EQ(refusal(changed("[time]", "[contact]\nname = \"ground\"\n[time]")),
+            "test.toml:3: contact = {...} is a table; expected an array of tables");
+}
 
 TEST(SceneRefusal, ListsTheIntegratorsOfTheirTable) {
   const std::string message = refusal(changed("step = 0.001", "integrator = \"rk5\""));

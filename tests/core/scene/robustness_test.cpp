@@ -18,6 +18,7 @@ duration = 1.0
 [solver]
 linear = "pcg"
 newton_iterations = 3
+iterations = 4
 [[body]]
 name = "beam"
 model = "fem"
@@ -33,12 +34,37 @@ pin = [ { select = { sphere = [1, 2, 3, 0.1] }, axes = "xz" } ]
 displacement = [ { select = { nodes = [7] }, value = [0.1, 0, 0] } ]
 velocity = [ { select = { all = true }, value = [1, 0, 0], spin = [0, 0, 1], about = [1, 1, 1] } ]
 force = [ { select = { box = [[0, 0, 0], [9, 9, 9]] }, value = [0, 0, 1] } ]
+surface_force = [ { select = { box = [[0, 0, 0], [9, 9, 9]] }, value = [0, 0, 1] } ]
+[[body]]
+name = "quadratic"
+model = "fem"
+mesh = { shape = "beam", cells = [1, 1, 1], size = [1, 1, 1] }
+element = "tet10"
+material = { law = "corotational", young = 1e5, poisson = 0.3, density = 10.0 }
+handle = [ { name = "grip", select = { nodes = [0, 1] }, translate = [0, 0, 1], rotate = [1, 0, 0], about = [0, 1, 0], start = 0.5, duration = 2.0 } ]
 [[body]]
 name = "rope"
 model = "mass_spring"
 mesh = { shape = "rope", cells = [4], size = [1.0] }
 springs = { stiffness = 10.0, damping = 0.1 }
 total_mass = 1.0
+[[contact]]
+name = "ground"
+shape = "plane"
+point = [0, 0, -1]
+normal = [0, 0, 1]
+friction = 0.3
+stiffness = 1e4
+[[contact]]
+name = "ball"
+shape = "sphere"
+center = [9, 0, 0]
+radius = 1.0
+[[contact]]
+name = "crate"
+shape = "box"
+lo = [5, 0, 0]
+hi = [6, 1, 1]
 [[probe]]
 name = "end"
 body = "rope"

@@ -27,6 +27,7 @@ TEST(Scene, HasTheDocumentedDefaults) {
   EXPECT_EQ(settings.solver.linear_tolerance, 1e-6);
   EXPECT_EQ(settings.solver.newton_iterations, 20);
   EXPECT_EQ(settings.solver.newton_tolerance, 1e-8);
+  EXPECT_EQ(settings.solver.iterations, 10);
   EXPECT_EQ(settings.stream.fields, std::vector<std::string>{"positions"});
   EXPECT_EQ(settings.stream.precision, "float32");
   EXPECT_EQ(settings.stream.every, 1);
@@ -35,12 +36,16 @@ TEST(Scene, HasTheDocumentedDefaults) {
   EXPECT_EQ(body.mass_damping, 0.0);
   EXPECT_EQ(body.drag, 0.0);
   EXPECT_EQ(scene.simulation->model().external_forces.size(), 0);
+  EXPECT_TRUE(scene.simulation->model().obstacles.empty());
+  EXPECT_TRUE(scene.simulation->model().handles.empty());
+  EXPECT_TRUE(scene.simulation->model().midsides.empty());
 }
 
 TEST(Scene, CarriesWhatItsFileSays) {
   const std::string tables =
       "step = 2\nintegrator = \"rk4\"\nsubsteps = 7\nduration = 4.5\n"
-      "[solver]\nlinear = \"pcg\"\nlinear_tolerance = 1e-9\nnewton_iterations = 1\nnewton_tolerance = 1e-4\n"
+      "[solver]\nlinear = \"pcg\"\nlinear_tolerance = 1e-9\nnewton_iterations = 1\nnewton_tolerance = 1e-4\niterations "
+      "= 3\n"
       "[stream]\nfields = [\"velocities\", \"positions\"]\nprecision = \"float64\"\nevery = 3\n";
   const std::string described = changed("gravity", "description = \"two bodies\"\ngravity");
   const Scene scene = loaded(changed("step = 0.001\n", tables, described));
@@ -55,6 +60,7 @@ TEST(Scene, CarriesWhatItsFileSays) {
   EXPECT_EQ(settings.solver.linear_tolerance, 1e-9);
   EXPECT_EQ(settings.solver.newton_iterations, 1);
   EXPECT_EQ(settings.solver.newton_tolerance, 1e-4);
+  EXPECT_EQ(settings.solver.iterations, 3);
   EXPECT_EQ(settings.stream.fields, (std::vector<std::string>{"velocities", "positions"}));
   EXPECT_EQ(settings.stream.precision, "float64");
   EXPECT_EQ(settings.stream.every, 3);

@@ -1,0 +1,81 @@
+// What an implicit step minimises, as a function of the displacement u from a base x*:
+//   1/2 (u - g v*)^T M (u - g v*) / g^2 + U(x* + u) + 1/2 u^T D u / g + friction(u),
+// whose stationary point is the implicit Euler step of length g from (x*, v*) to x* + u with the velocity u / g. Every
+// implicit scheme here is such a step with a base, velocity and length of its own. D is frozen: damping is linear in
+// the new velocity, with the directions of given positions. Friction uses normal forces of the last round.
+// Sources: R. Radovitzky, M. Ortiz, Comput. Methods Appl. Mech. Engrg. 172 (1999) 203-240; J. Martin et al.,
+// Example-based elastic materials, ACM TOG 30(4), 2011.
+#pragma once
+
+#include "core/forces/system.h"
+#include "core/integrators/integrator.h"
+#include "core/solvers/newton.h"
+
+namespace flexcast {
+
+// One implicit Euler step.
+struct ImplicitStage {
+  double length = 0.0;    // g, s
+  double end_time = 0.0;  // s, where handles are then
+  VecX base;              // x*, m
+  VecX base_velocity;     // v*, m/s
+  VecX damped_at;         // m, where D is taken; used when the system has damping
+};
+
+class IncrementalPotential final : public MinimizationProblem {
+ public:
+  explicit IncrementalPotential(const System& system) : stiffness_norm_(system.calc_stiffness_norm()) {}
+  // Only who asks for Hessians pays for matrices.
+  BlockMatrix make_hessian(const System& system);
+  // Starts a stage; u becomes a first guess: 0, but where handles say so.
+  void begin(const System& system, const ImplicitStage& stage, VecX& u);
+  // The displacement without forces, 0 where held: where a linear solver may start.
+  VecX calc_drift() const;
+
+  Value calc_value(const VecX& u) override;
+  double calc_gradient(const VecX& u, VecX& gradient) override;
+  void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) override;
+
+  // All forces at the u of the last calc_gradient, held particles included.
+  const VecX& force() const { return force_; }
+  // W, of damping and friction at the velocity u / g; u as in the last calc_gradient.
+  double calc_dissipated_power(const VecX& u) const;
+  // Takes the normal forces at x* + u for friction. False: they hardly differ and stay.
+  bool update_friction(const VecX& u);
+  const std::vector<FrictionPoint>& friction_points() const { return friction_; }
+  double slip() const { return slip_; }  // m
+  const VecX& constant_force() const { return constant_; }
+
+ private:
+  const System* system_ = nullptr;
+  const ImplicitStage* stage_ = nullptr;
+  double stiffness_norm_ = 0.0;          // N/m
+  double floor_ = 0.0;                   // N, forces below are rounding
+  double slip_ = 0.0;                    // m
+  std::vector<FrictionPoint> friction_;  // of the last round
+  BlockMatrix base_matrix_;              // M / g^2 + D / g, of this stage once a Hessian was asked for
+  bool base_is_valid_ = false;
+  VecX constant_, x_, inertia_, elastic_, velocity_, damping_, sliding_, force_;
+  double damping_power_ = 0.0;
+};
+
+// Carries out stages: Newton's method on the potential, again while friction's normal forces change.
+class ImplicitSolver {
+ public:
+  ImplicitSolver(const System& system, const SolverSettings& settings)
+      : potential_(system), newton_(settings, system.dofs() / 3), hessian_(potential_.make_hessian(system)) {}
+
+  // u: the displacement from the stage's base.
+  void solve(const System& system, const ImplicitStage& stage, VecX& u, StepStatistics& statistics);
+  // The mean force of the stage, N: of all forces, with what the solver left unbalanced.
+  VecX calc_effective_force() const { return potential_.force() + newton_.gradient(); }
+  // W, of damping and friction along u.
+  double calc_dissipated_power(const VecX& u) const { return potential_.calc_dissipated_power(u); }
+
+ private:
+  IncrementalPotential potential_;
+  NewtonSolver newton_;
+  BlockMatrix hessian_;
+};
+
+}  // namespace flexcast

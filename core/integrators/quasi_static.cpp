@@ -1,0 +1,190 @@
+#include "core/integrators/quasi_static.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "core/materials/polar.h"
+#include "core/solvers/newton.h"
+
+namespace flexcast {
+namespace {
+
+// A body's mass, centre and inertia about it.
+struct RigidProperties {
+  double mass = 0.0;
+  Vec3 center = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+RigidProperties calc_rigid_properties(const System& system, const Body& body, const VecX& x) {
+  RigidProperties rigid;
+  for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+    const double mass = block3(system.masses(), i)[0];
+    rigid.mass += mass;
+    rigid.center += mass * block3(x, i);
+  }
+  rigid.center /= rigid.mass;
+  for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+    const Vec3 arm = block3(x, i) - rigid.center;
+    rigid.inertia += block3(system.masses(), i)[0] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  }
+  return rigid;
+}
+
+// U(x0 + u) without what constant forces on free bodies would do to their rigid motion.
+class StaticPotential final : public MinimizationProblem {
+ public:
+  void begin(const System& system, double end_time, const State& state, VecX& u) {
+    system_ = &system;
+    start_ = &state.positions;
+    shift_ = smallest_shift;
+    floor_ = 1e-6 * system.size() * system.calc_stiffness_norm();
+    u.setZero(system.dofs());
+    if (system.has_handles()) {
+      x_ = state.positions;
+      VecX unused = state.velocities;
+      system.prescribe(end_time, x_, unused);
+      u = x_ - state.positions;
+    }
+    system.calc_constant(constant_);
+    for (const Body* body : system.find_free_bodies()) relieve(*body);
+  }
+
+  Value calc_value(const VecX& u) override {
+    x_ = *start_ + u;
+    const double elastic = system_->calc_position_dependent_energy(x_), constant = -constant_.dot(u);
+    return {elastic + constant, std::abs(elastic) + std::abs(constant)};
+  }
+
+  double calc_gradient(const VecX& u, VecX& gradient) override {
+    x_ = *start_ + u;
+    system_->calc_position_dependent(x_, force_);
+    const double terms =
+        force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm() + floor_;
+    force_ += constant_;
+    gradient = -force_.cwiseProduct(system_->free());
+    return terms;
+  }
+
+  void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) override {
+    x_ = *start_ + u;
+    hessian.set_zero();
+    system_->add_stiffness(x_, 1.0, exact ? Tangent::exact : Tangent::positive_semidefinite, hessian);
+    largest_rate_ = 0.0;
+    for (std::int32_t i = 0; i < hessian.rows(); ++i) {
+      const double rate = hessian.diagonal(i).trace() / block3(system_->masses(), i)[0];
+      largest_rate_ = std::max(largest_rate_, std::abs(rate));
+    }
+    if (largest_rate_ == 0.0) largest_rate_ = 1.0;
+    hessian.add_diagonal(shift_ * largest_rate_ * system_->masses());
+    hessian.hold(system_->free());
+  }
+
+  bool adapt(double length) override {
+    if (length == 1.0) {
+      shift_ = std::max(smallest_shift, 0.1 * shift_);
+      return true;
+    }
+    if (length == 0.0 && shift_ >= largest_shift) return false;
+    shift_ = std::min(largest_shift, (length > 0.05 ? 4.0 : 100.0) * shift_);
+    return true;
+  }
+
+  // N, all forces at the last u, held particles included.
+  const VecX& force() const { return force_; }
+
+ private:
+  static constexpr double smallest_shift = 1e-11, largest_shift = 1e3;
+
+  void relieve(const Body& body) {
+    const RigidProperties rigid = calc_rigid_properties(*system_, body, *start_);
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+      force += block3(constant_, i);
+      torque += (block3(*start_, i) - rigid.center).cross(Vec3(block3(constant_, i)));
+    }
+    const Vec3 turning = rigid.inertia.completeOrthogonalDecomposition().solve(torque);
+    for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+      const Vec3 arm = block3(*start_, i) - rigid.center;
+      block3(constant_, i) -= block3(system_->masses(), i)[0] * (force / rigid.mass + turning.cross(arm));
+    }
+  }
+
+  const System* system_ = nullptr;
+  const VecX* start_ = nullptr;
+  double shift_ = smallest_shift, largest_rate_ = 0.0;
+  double floor_ = 0.0;  // N, forces below are rounding
+  VecX constant_, x_, force_;
+};
+
+class QuasiStatic final : public Integrator {
+ public:
+  QuasiStatic(const System& system, const SolverSettings& settings)
+      : newton_(with_line_search(settings), system.dofs() / 3), hessian_(system.make_matrix()) {}
+
+  void step(const System& system, double h, State& state, StepStatistics& statistics) override {
+    potential_.begin(system, state.time + h, state, u_);
+    system.calc_conservative(state.positions, start_force_);
+    const double start_potential = system.calc_potential(state.positions);
+    const NewtonResult result = newton_.minimize(potential_, hessian_, VecX::Zero(u_.size()), u_);
+    statistics.iterations += result.iterations;
+    statistics.linear_iterations += result.linear_iterations;
+    statistics.residual = result.residual;
+    statistics.converged = statistics.converged && result.converged;
+
+    // What handles put in, by the trapezoidal rule of what they hold against; the rest relaxed.
+    const VecX way = 0.5 * (start_force_ + potential_.force()).cwiseProduct(u_);
+    const double handle_work = way.dot(system.free()) - way.sum();
+    const double released = handle_work - (system.calc_potential(state.positions + u_) - start_potential);
+    statistics.handle_work += handle_work;
+    statistics.force_work -= handle_work;
+    statistics.dissipated += std::max(released, 0.0);
+
+    start_ = state.positions;
+    state.positions += u_;
+    for (const Body* body : system.find_free_bodies()) align(system, *body, start_, state.positions);
+    state.velocities.setZero();
+    VecX no_velocities = state.velocities;
+    system.prescribe(state.time + h, state.positions, no_velocities);
+  }
+
+ private:
+  static SolverSettings with_line_search(SolverSettings settings) {
+    settings.newton_iterations = std::max(2, settings.newton_iterations);
+    return settings;
+  }
+
+  // Undoes the mean motion of a body that nothing holds; its energy does not feel it (linear: only the translation).
+  static void align(const System& system, const Body& body, const VecX& from, VecX& to) {
+    const Vec3 start = calc_rigid_properties(system, body, from).center;
+    const Vec3 end = calc_rigid_properties(system, body, to).center;
+    Mat3 covariance = Mat3::Zero();
+    for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+      covariance += block3(system.masses(), i)[0] * (block3(from, i) - start) * (block3(to, i) - end).transpose();
+    }
+    const Mat3 R = body.is_fem() && body.law->small_strain ? Mat3(Mat3::Identity()) : calc_rotation(covariance);
+    for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
+      block3(to, i) = start + R * (block3(to, i) - end);
+    }
+  }
+
+  StaticPotential potential_;
+  NewtonSolver newton_;
+  BlockMatrix hessian_;
+  VecX u_, start_, start_force_;
+};
+
+}  // namespace
+
+const IntegratorRow quasi_static_row{
+    "quasi_static",
+    "equilibrium at every step, without inertia",
+    0,
+    true,
+    [](double, double) { return std::numeric_limits<double>::infinity(); },
+    [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
+      return std::make_unique<QuasiStatic>(system, settings);
+    }};
+
+}  // namespace flexcast

@@ -1,0 +1,100 @@
+#include "core/integrators/vbd.h"
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "core/forces/friction.h"
+#include "core/integrators/coloring.h"
+#include "core/integrators/incremental_potential.h"
+#include "core/integrators/velocity_change.h"
+
+namespace flexcast {
+namespace {
+
+class Vbd final : public Integrator {
+ public:
+  Vbd(const System& system, const SolverSettings& settings)
+      : settings_(settings),
+        colors_(make_colors(static_cast<std::int32_t>(system.dofs() / 3), system.make_couplings())),
+        potential_(system) {}
+
+  void step(const System& system, double h, State& state, StepStatistics& statistics) override {
+    stage_ = {h, state.time + h, state.positions, state.velocities, state.positions};
+    potential_.begin(system, stage_, u_);
+    u_ += potential_.calc_drift() + h * h * system.inverse_masses().cwiseProduct(potential_.constant_force());
+    for (int i = 0; i < settings_.iterations; ++i) {
+      for (const auto& particles : colors_) update(system, particles);
+    }
+    finish(system, state, statistics);
+  }
+
+ private:
+  // One Newton step of each particle; those of one colour do not see each other.
+  void update(const System& system, std::span<const std::int32_t> particles) {
+    const double h = stage_.length;
+    f_.assign(particles.size(), Vec3::Zero());
+    K_.assign(particles.size(), Mat3::Zero());
+    x_ = stage_.base + u_;
+    if (system.has_damping()) velocity_ = u_ / h;
+    for (const Force* force : system.active_forces()) {
+      if (!force->is_constant()) force->add_blocks(x_, particles, f_, K_);
+      if (force->has_damping()) force->add_damping_blocks(stage_.base, velocity_, 1.0 / h, particles, f_, K_);
+    }
+    for (const FrictionPoint& point : potential_.friction_points()) {
+      const auto found = std::lower_bound(particles.begin(), particles.end(), point.particle);
+      if (found == particles.end() || *found != point.particle) continue;
+      const auto i = static_cast<std::size_t>(found - particles.begin());
+      f_[i] -= calc_friction_potential(point, potential_.slip(), block3(u_, point.particle)).gradient;
+      K_[i] += calc_friction_tangent(point, potential_.slip(), block3(u_, point.particle));
+    }
+    for (std::size_t i = 0; i < particles.size(); ++i) move(system, particles[i], f_[i], K_[i]);
+  }
+
+  void move(const System& system, std::int32_t particle, Vec3 f, Mat3 K) {
+    const double h = stage_.length;
+    const Vec3 free = block3(system.free(), particle), inertia = block3(system.masses(), particle) / (h * h);
+    const Vec3 drifted = block3(u_, particle) - h * block3(stage_.base_velocity, particle);
+    f += block3(potential_.constant_force(), particle) - inertia.cwiseProduct(drifted);
+    K.diagonal() += inertia;
+    f = f.cwiseProduct(free);
+    K = free.asDiagonal() * K * free.asDiagonal();
+    K.diagonal() += Vec3::Ones() - free;
+    block3(u_, particle) += K.ldlt().solve(f);
+  }
+
+  void finish(const System& system, State& state, StepStatistics& statistics) {
+    const double h = stage_.length;
+    const double terms = potential_.calc_gradient(u_, gradient_);
+    statistics.iterations += settings_.iterations;
+    statistics.residual = terms > 0.0 ? gradient_.norm() / terms : 0.0;
+    statistics.converged = statistics.converged && statistics.residual <= settings_.newton_tolerance;
+    statistics.dissipated += h * potential_.calc_dissipated_power(u_);
+    gradient_ += potential_.force();
+    VelocityChange change(system, h, gradient_, state.velocities, statistics);
+    state.positions += u_;
+    state.velocities = u_ / h;
+    system.prescribe(stage_.end_time, state.positions, state.velocities);
+    change.close(state.velocities);
+  }
+
+  SolverSettings settings_;
+  std::vector<std::vector<std::int32_t>> colors_;
+  IncrementalPotential potential_;
+  ImplicitStage stage_;
+  VecX u_, x_, velocity_, gradient_;
+  std::vector<Vec3> f_;
+  std::vector<Mat3> K_;
+};
+
+}  // namespace
+
+const IntegratorRow vbd_row{"vbd",
+                            "vertex block descent: fast and stable, a fixed number of iterations",
+                            0,
+                            true,
+                            [](double, double) { return std::numeric_limits<double>::infinity(); },
+                            [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
+                              return std::make_unique<Vbd>(system, settings);
+                            }};
+
+}  // namespace flexcast

@@ -1,0 +1,13 @@
+// Extended position-based dynamics: backward Euler solved by Gauss-Seidel over compliant constraints, one a spring,
+// tetrahedron, contact or grab, solver.iterations sweeps a step. Few sweeps and many substeps are its place: what the
+// sweeps do not reach acts softer. Converged it is backward Euler (tetrahedra damp along their constraint, friction
+// acts on positions).
+// Sources: M. Macklin, M. Mueller, N. Chentanez, XPBD, Motion in Games 2016; M. Macklin et al., Small Steps in Physics
+// Simulation, SCA 2019.
+#pragma once
+
+#include "core/integrators/integrator.h"
+
+namespace flexcast {
+extern const IntegratorRow xpbd_row;
+}
