@@ -1,6 +1,32 @@
 #include "server/chronicle.h"
 
 namespace flexcast::server {
+namespace {
+
+void describe(const ResetCommand& reset, Event& event) {
+  event.keep_parameters = reset.keep_parameters;
+}
+void describe(const LoadCommand& load, Event& event) {
+  event.name = load.name;
+}
+void describe(const SaveCommand& save, Event& event) {
+  event.name = save.name;
+}
+void describe(const RestoreCommand& restore, Event& event) {
+  event.name = restore.name;
+}
+void describe(const GrabCommand& grab, Event& event) {
+  event.particle = grab.particle;
+  event.target = grab.target;
+  event.stiffness = grab.stiffness;
+}
+void describe(const ReleaseCommand& release, Event& event) {
+  event.particle = release.particle;
+}
+template <class Other>
+void describe(const Other&, Event&) {}
+
+}  // namespace
 
 void Chronicle::begin_run(RunStarted run) {
   run_id_ = run.run_id;
@@ -27,7 +53,7 @@ void Chronicle::note_command(const Moment& moment, const Command& command, std::
   event.key = command.key;
   event.command = command.kind;
   event.values = std::move(values);
-  if (const auto* reset = std::get_if<ResetCommand>(&command.body)) event.keep_parameters = reset->keep_parameters;
+  std::visit([&](const auto& body) { describe(body, event); }, command.body);
   notices_.emplace_back(std::move(event));
 }
 

@@ -24,7 +24,7 @@ class Chronicle {
   void begin_run(RunStarted run);
   std::uint64_t run_id() const { return run_id_; }
 
-  // An applied command that changed something. `values`: see Event.
+  // An applied command that changed something. `values`: see Event; its other fields come from the command.
   void note_command(const Moment& moment, const Command& command, std::string text,
                     std::vector<ParameterAssignment> values = {});
   void note_state(const Moment& moment, std::string text);

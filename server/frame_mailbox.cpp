@@ -1,5 +1,6 @@
 #include "server/frame_mailbox.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -7,13 +8,22 @@
 
 namespace flexcast::server {
 
-FrameMailbox::FrameMailbox(std::int64_t particles, const FrameLimits& limits) : ring_(particles, limits) {}
+FrameMailbox::FrameMailbox(std::int64_t particles, const FrameLimits& limits) : limits_(limits) {
+  rings_.emplace_back(particles, limits);
+}
+
+void FrameMailbox::begin_scene(std::int64_t particles) {
+  std::list<FrameRing> ring;
+  ring.emplace_back(particles, limits_);
+  const std::scoped_lock lock(mutex_);
+  rings_.splice(rings_.end(), ring);
+}
 
 bool FrameMailbox::push(const FrameHeader& header, const State& state) {
   Frame* frame = nullptr;
   {
     const std::scoped_lock lock(mutex_);
-    frame = ring_.acquire();
+    frame = rings_.back().acquire();
   }
   if (frame == nullptr) return false;
   FLEXCAST_CHECK(state.positions.size() == frame->positions.size() &&
@@ -23,7 +33,7 @@ bool FrameMailbox::push(const FrameHeader& header, const State& state) {
   frame->velocities = state.velocities;
   {
     const std::scoped_lock lock(mutex_);
-    ring_.commit(frame);
+    rings_.back().commit(frame);
   }
   changed_.notify_one();
   return true;
@@ -48,11 +58,13 @@ void FrameMailbox::post(WorldStatus status) {
 }
 
 const Frame* FrameMailbox::take() {
+  std::list<FrameRing> finished;  // goes after the lock
   const std::scoped_lock lock(mutex_);
-  Frame* frame = ring_.take();
-  if (frame == nullptr) return nullptr;
-  if (taken_ != nullptr) ring_.release(taken_);
-  return taken_ = frame;
+  const auto ring = std::find_if(rings_.begin(), rings_.end(), [](const FrameRing& r) { return r.waiting() > 0; });
+  if (ring == rings_.end()) return nullptr;
+  if (taken_ != nullptr) rings_.front().release(taken_);
+  finished.splice(finished.end(), rings_, rings_.begin(), ring);
+  return taken_ = ring->take();
 }
 
 std::vector<Notice> FrameMailbox::take_notices() {
@@ -68,13 +80,24 @@ std::optional<WorldStatus> FrameMailbox::take_status() {
 void FrameMailbox::wait_until(Clock::time_point time) {
   std::unique_lock lock(mutex_);
   changed_.wait_until(lock, time,
-                      [this] { return woken_ || ring_.waiting() > 0 || !notices_.empty() || status_.has_value(); });
+                      [this] { return woken_ || count_waiting() > 0 || !notices_.empty() || status_.has_value(); });
   woken_ = false;
 }
 
 std::size_t FrameMailbox::waiting() const {
   const std::scoped_lock lock(mutex_);
-  return ring_.waiting();
+  return count_waiting();
+}
+
+std::size_t FrameMailbox::count_waiting() const {
+  std::size_t count = 0;
+  for (const FrameRing& ring : rings_) count += ring.waiting();
+  return count;
+}
+
+std::size_t FrameMailbox::capacity() const {
+  const std::scoped_lock lock(mutex_);
+  return rings_.back().capacity();
 }
 
 void FrameMailbox::wake() {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -23,6 +24,8 @@ class FrameMailbox {
 
   // ---- for the simulation thread
 
+  // Frames pushed from now on have so many particles. Those that wait are still taken.
+  void begin_scene(std::int64_t particles);
   // Copies the state. False: no room, nothing was copied. Allocates nothing.
   bool push(const FrameHeader& header, const State& state);
   void post(std::vector<Notice> notices);
@@ -43,15 +46,18 @@ class FrameMailbox {
 
   // ---- for anybody
 
-  std::size_t capacity() const { return ring_.capacity(); }
-  std::size_t waiting() const;  // frames
+  std::size_t capacity() const;  // frames, of the present scene
+  std::size_t waiting() const;   // frames
   void wake();
 
  private:
+  std::size_t count_waiting() const;  // under the lock
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  FrameRing ring_;
-  Frame* taken_ = nullptr;  // the publisher's
+  const FrameLimits limits_;
+  std::list<FrameRing> rings_;  // of each scene one: pushed into the last; the first goes when the next is taken from
+  Frame* taken_ = nullptr;      // the publisher's, of the first ring
   std::vector<Notice> notices_;
   std::optional<WorldStatus> status_;
   bool woken_ = false;

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <regex>
 
 #include "idl/wire/participant.h"
+#include "server/name.h"
 
 namespace flexcast::server {
 namespace {
@@ -42,8 +42,8 @@ double parse_until(const std::string& text) {
 }
 
 std::string check_world(const std::string& name) {
-  static const std::regex allowed("[A-Za-z0-9_-]{1,64}");
-  return std::regex_match(name, allowed) ? "" : "'" + name + "' is not a name: 1 to 64 of A-Z, a-z, 0-9, _ and -";
+  const auto checked = check_name(name);
+  return checked ? "" : checked.error().message;
 }
 
 std::string check_override(const std::string& text) {
@@ -67,6 +67,8 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_flag("--paused", options.paused, "wait at step 0 for a command");
   app.add_option("--until", until, "simulated seconds after which the world is finished; the server stays");
   app.add_flag("--exit", options.exit, "end when --until is reached");
+  app.add_option("--checkpoints", options.checkpoints,
+                 "folder for checkpoints, made when needed; default: checkpoints; each is DIR/WORLD/NAME.checkpoint");
   app.add_option("--set", options.overrides, "PATH=VALUE over what the scene file says; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -15,8 +15,9 @@ struct Options {
   std::string profile;  // "": see idl/wire/profile.h
   double rate = 1.0;    // simulated seconds per wall second; 0: as fast as possible
   bool paused = false;
-  std::optional<double> until;  // s
-  bool exit = false;            // end when `until` is reached
+  std::optional<double> until;              // s
+  bool exit = false;                        // end when `until` is reached
+  std::string checkpoints = "checkpoints";  // folder of all worlds' checkpoints
   std::vector<std::string> overrides;
 };
 

@@ -20,32 +20,32 @@ const ParameterRow& rate_row() {
 }  // namespace
 
 ParameterTable::ParameterTable(Simulation& simulation, double rate)
-    : simulation_(simulation), own_{"server.rate", &rate_row(), 0, rate}, rate_(rate) {}
+    : simulation_(&simulation), own_{"server.rate", &rate_row(), 0, rate}, rate_(rate) {}
 
 std::vector<ParameterDescriptor> ParameterTable::descriptors() const {
-  auto all = simulation_.parameters();
+  auto all = simulation_->parameters();
   all.push_back(own_);
   return all;
 }
 
 const ParameterDescriptor* ParameterTable::find(std::string_view name) const {
-  return name == own_.name ? &own_ : simulation_.find_parameter(name);
+  return name == own_.name ? &own_ : simulation_->find_parameter(name);
 }
 
 ParameterValue ParameterTable::value(const ParameterDescriptor& descriptor) const {
-  return is_own(descriptor) ? ParameterValue(rate_) : simulation_.parameter(descriptor);
+  return is_own(descriptor) ? ParameterValue(rate_) : simulation_->parameter(descriptor);
 }
 
 std::vector<ParameterAssignment> ParameterTable::values() const {
   std::vector<ParameterAssignment> values;
-  for (const auto& descriptor : simulation_.parameters()) values.push_back({descriptor.name, value(descriptor)});
+  for (const auto& descriptor : simulation_->parameters()) values.push_back({descriptor.name, value(descriptor)});
   values.push_back({own_.name, rate_});
   return values;
 }
 
 std::vector<ParameterAssignment> ParameterTable::changed() const {
   std::vector<ParameterAssignment> changed;
-  for (const auto& descriptor : simulation_.parameters()) {
+  for (const auto& descriptor : simulation_->parameters()) {
     const ParameterValue now = value(descriptor);
     if (now != descriptor.initial) changed.push_back({descriptor.name, now});
   }
@@ -76,7 +76,7 @@ Result<void> ParameterTable::set(std::span<const ParameterAssignment> assignment
     rate = std::get<double>(converted.value());
   }
   if (!of_simulation.empty()) {
-    if (auto result = simulation_.set_parameters(of_simulation); !result) return result.error();
+    if (auto result = simulation_->set_parameters(of_simulation); !result) return result.error();
   }
   if (of_simulation.size() < assignments.size()) {
     rate_ = rate;
@@ -86,10 +86,16 @@ Result<void> ParameterTable::set(std::span<const ParameterAssignment> assignment
 }
 
 void ParameterTable::reset(bool keep_parameters) {
-  simulation_.reset(keep_parameters);
+  simulation_->reset(keep_parameters);
   if (keep_parameters || ParameterValue(rate_) == own_.initial) return;
   rate_ = std::get<double>(own_.initial);
   ++own_changes_;
+}
+
+void ParameterTable::follow(Simulation& simulation) {
+  own_changes_ += simulation_->parameter_revision();
+  simulation_ = &simulation;
+  rate_ = std::get<double>(own_.initial);
 }
 
 }  // namespace flexcast::server

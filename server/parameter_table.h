@@ -16,7 +16,7 @@ class ParameterTable {
   ParameterTable(Simulation& simulation, double rate);
 
   double rate() const { return rate_; }
-  std::uint64_t revision() const { return simulation_.parameter_revision() + own_changes_; }
+  std::uint64_t revision() const { return simulation_->parameter_revision() + own_changes_; }
 
   std::vector<ParameterDescriptor> descriptors() const;
   std::vector<ParameterAssignment> values() const;   // of all
@@ -29,12 +29,15 @@ class ParameterTable {
   // Resets the simulation; parameters return to their initial values unless kept.
   void reset(bool keep_parameters);
 
+  // From now on those of another simulation; the server's own return to their initial values. The revision grows.
+  void follow(Simulation& simulation);
+
  private:
   const ParameterDescriptor* find(std::string_view name) const;
   ParameterValue value(const ParameterDescriptor& descriptor) const;
   bool is_own(const ParameterDescriptor& descriptor) const { return &descriptor == &own_; }
 
-  Simulation& simulation_;
+  Simulation* simulation_;
   ParameterDescriptor own_;  // server.rate
   double rate_;
   std::uint64_t own_changes_ = 0;

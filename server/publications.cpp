@@ -12,16 +12,15 @@
 
 namespace flexcast::server {
 
-wire::Result<Publications> Publications::create(const wire::Participant& participant, SceneFacts facts,
-                                                std::uint64_t server_id, const StreamFormat& format) {
-  const FrameSize size = calc_frame_size(facts.model->particle_count(), format);
+wire::Result<Publications> Publications::create(const wire::Participant& participant, std::string world,
+                                                std::uint64_t server_id, const wire::Qos& frames_qos) {
   auto scene = wire::Writer<flexcast_SceneInfo>::create(participant);
   if (!scene) return scene.error();
   auto topology = wire::Writer<flexcast_Topology>::create(participant);
   if (!topology) return topology.error();
   auto parameters = wire::Writer<flexcast_ParameterSet>::create(participant);
   if (!parameters) return parameters.error();
-  auto frames = wire::Writer<flexcast_ParticleFrame>::create(participant, wire::frames_writer_qos(size.bytes));
+  auto frames = wire::Writer<flexcast_ParticleFrame>::create(participant, frames_qos);
   if (!frames) return frames.error();
   auto status = wire::Writer<flexcast_Status>::create(participant);
   if (!status) return status.error();
@@ -29,11 +28,11 @@ wire::Result<Publications> Publications::create(const wire::Participant& partici
   if (!events) return events.error();
   return Publications({std::move(scene).value(), std::move(topology).value(), std::move(parameters).value(),
                        std::move(frames).value(), std::move(status).value(), std::move(events).value()},
-                      std::move(facts), server_id);
+                      std::move(world), server_id);
 }
 
-Publications::Publications(Writers writers, SceneFacts facts, std::uint64_t server_id)
-    : writers_(std::move(writers)), facts_(std::move(facts)), server_id_(server_id), frame_message_(facts_.world) {}
+Publications::Publications(Writers writers, std::string world, std::uint64_t server_id)
+    : writers_(std::move(writers)), world_(std::move(world)), server_id_(server_id), frame_message_(world_) {}
 
 template <class T>
 void Publications::write(const wire::Writer<T>& writer, const T& message) {
@@ -49,16 +48,20 @@ void Publications::publish(const Notice& notice) {
 
 void Publications::publish_one(const RunStarted& run) {
   spdlog::info("run {} begins", run.run_id);
-  write(writers_.scene, *make_scene_info(facts_, run));
-  for (std::size_t body = 0; body < facts_.model->bodies.size(); ++body) {
-    for (std::uint32_t chunk = 0; chunk < count_topology_chunks(facts_, body); ++chunk) {
-      write(writers_.topology, *make_topology(facts_, run, body, chunk));
+  write(writers_.scene, *make_scene_info(run, world_));
+  std::vector<std::uint32_t> chunks;
+  for (const Body& body : run.scene->simulation->model().bodies) chunks.push_back(count_topology_chunks(body));
+  dispose_topology(chunks);
+  for (std::size_t body = 0; body < chunks.size(); ++body) {
+    for (std::uint32_t chunk = 0; chunk < chunks[body]; ++chunk) {
+      write(writers_.topology, *make_topology(run, world_, body, chunk));
     }
   }
+  topology_chunks_ = std::move(chunks);
 }
 
 void Publications::publish_one(const ParametersChanged& parameters) {
-  write(writers_.parameters, *to_wire(parameters, facts_.world));
+  write(writers_.parameters, *to_wire(parameters, world_));
 }
 
 void Publications::publish_one(const Event& event) {
@@ -66,11 +69,11 @@ void Publications::publish_one(const Event& event) {
       event.kind == EventKind::warning || event.state == WorldState::failed ? spdlog::level::warn : spdlog::level::info;
   const std::string whose = event.key.client_id.empty() ? "" : " (" + event.key.client_id + ")";
   spdlog::log(level, "step {}: {}{}", event.step, event.text, whose);
-  write(writers_.events, *to_wire(event, facts_.world));
+  write(writers_.events, *to_wire(event, world_));
 }
 
 void Publications::publish(const WorldStatus& status, const DeliveryStatus& delivery) {
-  write(writers_.status, *to_wire(status, delivery, {facts_.world, server_id_}));
+  write(writers_.status, *to_wire(status, delivery, {world_, server_id_}));
 }
 
 void Publications::publish(const Frame& frame) {
@@ -84,18 +87,24 @@ void Publications::publish(const Frame& frame) {
 
 template <class T>
 void Publications::dispose(const wire::Writer<T>& writer, T& message) {
-  wire::set_string(message.world, facts_.world);
+  wire::set_string(message.world, world_);
   if (auto result = writer.dispose(message); !result) spdlog::debug("{}", result.error().message);
+}
+
+// What was written and is not of the scene that has so many chunks of each body.
+void Publications::dispose_topology(const std::vector<std::uint32_t>& still_there) {
+  wire::Owned<flexcast_Topology> topology;
+  for (std::size_t body = 0; body < topology_chunks_.size(); ++body) {
+    topology->body = static_cast<std::uint32_t>(body);
+    topology->chunk = body < still_there.size() ? still_there[body] : 0;
+    for (; topology->chunk < topology_chunks_[body]; ++topology->chunk) dispose(writers_.topology, *topology);
+  }
 }
 
 void Publications::dispose() {
   wire::Owned<flexcast_ParticleFrame> frame;
   for (; frame->chunk < most_frame_chunks_; ++frame->chunk) dispose(writers_.frames, *frame);
-  wire::Owned<flexcast_Topology> topology;
-  for (; topology->body < facts_.model->bodies.size(); ++topology->body) {
-    const std::uint32_t chunks = count_topology_chunks(facts_, topology->body);
-    for (topology->chunk = 0; topology->chunk < chunks; ++topology->chunk) dispose(writers_.topology, *topology);
-  }
+  dispose_topology({});
   dispose(writers_.parameters, *wire::Owned<flexcast_ParameterSet>());
   dispose(writers_.scene, *wire::Owned<flexcast_SceneInfo>());
   dispose(writers_.events, *wire::Owned<flexcast_Event>());

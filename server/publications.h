@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "idl/wire/writer.h"
 #include "server/convert/frames.h"
 #include "server/convert/notice_types.h"
-#include "server/convert/scene_facts.h"
 #include "server/convert/status_types.h"
 #include "server/frame_ring.h"
 
@@ -17,11 +17,11 @@ namespace flexcast::server {
 
 class Publications {
  public:
-  // `format`: what frames are going to carry; decides how many of them the writer keeps for readers that lag.
-  static wire::Result<Publications> create(const wire::Participant& participant, SceneFacts facts,
-                                           std::uint64_t server_id, const StreamFormat& format);
+  // `frames`: decides how many of them the writer keeps for readers that lag.
+  static wire::Result<Publications> create(const wire::Participant& participant, std::string world,
+                                           std::uint64_t server_id, const wire::Qos& frames);
 
-  const std::string& world() const { return facts_.world; }
+  const std::string& world() const { return world_; }
   std::uint64_t server_id() const { return server_id_; }
 
   void publish(const Notice& notice);
@@ -44,7 +44,7 @@ class Publications {
     wire::Writer<flexcast_Event> events;
   };
 
-  Publications(Writers writers, SceneFacts facts, std::uint64_t server_id);
+  Publications(Writers writers, std::string world, std::uint64_t server_id);
   void publish_one(const RunStarted& run);
   void publish_one(const ParametersChanged& parameters);
   void publish_one(const Event& event);
@@ -52,13 +52,15 @@ class Publications {
   void write(const wire::Writer<T>& writer, const T& message);
   template <class T>
   void dispose(const wire::Writer<T>& writer, T& message);
+  void dispose_topology(const std::vector<std::uint32_t>& still_there);
 
   Writers writers_;
-  SceneFacts facts_;
+  std::string world_;
   std::uint64_t server_id_;
   FrameMessage frame_message_;
-  std::uint32_t most_frame_chunks_ = 0;  // ever written
-  std::set<std::string> complaints_;     // what was logged
+  std::uint32_t most_frame_chunks_ = 0;         // ever written
+  std::vector<std::uint32_t> topology_chunks_;  // written, of each body
+  std::set<std::string> complaints_;            // what was logged
 };
 
 }  // namespace flexcast::server

@@ -3,20 +3,33 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "server/convert/frames.h"
+#include "server/name.h"
 #include "server/world_claim.h"
 
 namespace flexcast::server {
 namespace {
 
-SceneFacts make_facts(const Scene& scene, const std::string& world) {
-  return {world.empty() ? scene.name : world,
-          scene.name,
-          scene.description,
-          scene.text,
-          scene.overrides,
-          scene.files,
-          scene.simulation->probes(),
-          &scene.simulation->model()};
+// How many frames the stream keeps for readers that lag depends on what it is made for.
+wire::Qos make_frames_qos(const Scene& scene) {
+  const Simulation& simulation = *scene.simulation;
+  const auto format = make_stream_format(simulation.settings().stream);
+  return wire::frames_writer_qos(calc_frame_size(simulation.model().particle_count(), format).bytes);
+}
+
+// From the folder of the scene that the server was started with.
+SceneLoader make_scene_loader(const std::string& first_scene, const wire::Qos& frames) {
+  return [folder = std::filesystem::path(first_scene).parent_path(), frames](const std::string& name) -> Result<Scene> {
+    if (auto checked = check_name(name); !checked) return checked.error();
+    auto scene = load_scene(folder / (name + ".toml"));
+    if (!scene) return scene;
+    if (make_frames_qos(scene.value()).depth < frames.depth) {
+      return Error{"the frames of '" + name +
+                   "' are too large for this server's stream; start a server with this scene"};
+    }
+    for (const auto& note : scene.value().notes) spdlog::info("{}", note);
+    return scene;
+  };
 }
 
 }  // namespace
@@ -28,12 +41,16 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options) {
   auto participant = wire::Participant::create({options.domain, options.profile});
   if (!participant) return Error{participant.error().message};
   const std::uint64_t server_id = RunIds().next();
-  auto publications = Publications::create(participant.value(), make_facts(scene.value(), options.world), server_id,
-                                           make_stream_format(scene.value().simulation->settings().stream));
+  const std::string world = options.world.empty() ? scene.value().name : options.world;
+  const wire::Qos frames = make_frames_qos(scene.value());
+  auto publications = Publications::create(participant.value(), world, server_id, frames);
   if (!publications) return Error{publications.error().message};
 
-  std::unique_ptr<Server> server(
-      new Server(options, std::move(scene).value(), std::move(participant).value(), std::move(publications).value()));
+  const WorldOptions world_options{options.rate, options.paused, options.until,
+                                   std::filesystem::path(options.checkpoints) / world,
+                                   make_scene_loader(options.scene, frames)};
+  std::unique_ptr<Server> server(new Server(std::move(scene).value(), world_options, std::move(participant).value(),
+                                            std::move(publications).value()));
   const auto announce = [&] { server->publications_.publish(server->world_.calc_status(), {}); };
   auto claimed = claim_world(server->participant_, server->publications_.world(), server_id, announce);
   if (!claimed) return Error{claimed.error().message};
@@ -47,17 +64,16 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options) {
   return server;
 }
 
-Server::Server(const Options& options, Scene scene, wire::Participant participant, Publications publications)
-    : scene_(std::move(scene)),
-      participant_(std::move(participant)),
-      world_(*scene_.simulation, {options.rate, options.paused, options.until}, run_ids_),
-      mailbox_(scene_.simulation->model().particle_count()),
+Server::Server(Scene scene, const WorldOptions& options, wire::Participant participant, Publications publications)
+    : participant_(std::move(participant)),
+      world_(std::move(scene), options, run_ids_),
+      mailbox_(world_.simulation().model().particle_count()),
       simulation_(world_, commands_, replies_, mailbox_),
       publications_(std::move(publications)),
       publisher_(publications_, mailbox_),
       description_(fmt::format("world {} on domain {}, profile {}: {} particles, dt {:g} s, rate {}{}",
                                publications_.world(), participant_.domain(), participant_.profile(),
-                               scene_.simulation->model().particle_count(), scene_.simulation->settings().time.step,
+                               world_.simulation().model().particle_count(), world_.simulation().settings().time.step,
                                options.rate > 0.0 ? fmt::format("{:g}", options.rate) : "max",
                                options.paused ? ", paused" : "")) {}
 

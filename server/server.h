@@ -34,9 +34,8 @@ class Server {
   Publisher::Latest latest() const { return publisher_.latest(); }
 
  private:
-  Server(const Options& options, Scene scene, wire::Participant participant, Publications publications);
+  Server(Scene scene, const WorldOptions& options, wire::Participant participant, Publications publications);
 
-  Scene scene_;
   wire::Participant participant_;
   RunIds run_ids_;
   World world_;

@@ -5,7 +5,12 @@
 namespace flexcast::server {
 
 SimulationThread::SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox)
-    : world_(world), commands_(commands), replies_(replies), mailbox_(mailbox), pacer_(world.rate()) {
+    : world_(world),
+      commands_(commands),
+      replies_(replies),
+      mailbox_(mailbox),
+      pacer_(world.rate()),
+      topology_revision_(world.topology_revision()) {
   hand_frame_over();
   hand_on();
 }
@@ -51,14 +56,26 @@ Clock::duration SimulationThread::turn(Clock::time_point now) {
 
 void SimulationThread::apply_commands(Clock::time_point now) {
   if (commands_.size() == 0) return;
-  const auto run = world_.run_id();
   for (const Command& command : commands_.take_all()) {
+    const auto run = world_.run_id();
+    const double time = world_.simulation_state().time;
     world_.apply(command, now);
-    if (pending_ && pending_->run_id != world_.run_id()) drop_pending_frame();
+    follow(run, time);
     hand_frame_over();
   }
-  if (world_.run_id() == run) return;
-  frames_skipped_ = 0;
+}
+
+// What a command has done to run, time and scene.
+void SimulationThread::follow(std::uint64_t run, double time) {
+  if (world_.topology_revision() != topology_revision_) {
+    mailbox_.begin_scene(world_.simulation().model().particle_count());
+    topology_revision_ = world_.topology_revision();
+  }
+  if (world_.run_id() != run) {
+    pending_.reset();
+    frames_skipped_ = 0;
+  }
+  if (world_.run_id() == run && world_.simulation_state().time == time) return;
   pacer_.restart();
   meter_.stop();
 }

@@ -39,6 +39,7 @@ class SimulationThread {
 
   void run();
   void apply_commands(Clock::time_point now);
+  void follow(std::uint64_t run, double time);
   void step();
   void hand_frame_over();
   void drop_pending_frame();
@@ -53,7 +54,8 @@ class SimulationThread {
   RateMeter meter_;
   std::optional<FrameHeader> pending_;  // of the present state: found no room yet
   std::uint64_t frames_skipped_ = 0;
-  std::uint64_t posted_run_ = 0;  // of the last status
+  std::uint64_t topology_revision_ = 0;  // of the mailbox's scene
+  std::uint64_t posted_run_ = 0;         // of the last status
   WorldState posted_state_ = WorldState::paused;
   std::atomic<WorldState> state_ = WorldState::paused;
   std::atomic<bool> handed_over_ = false;

@@ -7,8 +7,12 @@
 
 namespace flexcast::server {
 
-World::World(Simulation& simulation, const WorldOptions& options, RunIds& run_ids)
-    : simulation_(simulation), options_(options), run_ids_(run_ids), parameters_(simulation, options.rate) {
+World::World(Scene scene, const WorldOptions& options, RunIds& run_ids)
+    : scene_(std::make_shared<const Scene>(std::move(scene))),
+      options_(options),
+      run_ids_(run_ids),
+      checkpoints_(options.checkpoints),
+      parameters_(*scene_->simulation, options.rate) {
   state_ = options_.paused ? WorldState::paused : WorldState::running;
   begin_run();
   chronicle_.note_state(moment(), options_.paused ? "started, paused" : "started");
@@ -18,14 +22,14 @@ World::World(Simulation& simulation, const WorldOptions& options, RunIds& run_id
 // ---------------------------------------------------------------- stepping
 
 double World::next_time() const {
-  return simulation_.state().time + simulation_.settings().time.step;
+  return simulation().state().time + simulation().settings().time.step;
 }
 
 void World::take_step() {
   FLEXCAST_CHECK(running());
   if (arrived()) return;  // nothing left to do: settle() ends it
-  if (!simulation_.step()) return fail();
-  if (simulation_.state().step % std::max(1, simulation_.settings().stream.every) == 0) make_frame_due();
+  if (!scene_->simulation->step()) return fail();
+  if (simulation().state().step % std::max(1, simulation().settings().stream.every) == 0) make_frame_due();
 }
 
 void World::settle(double wall_seconds) {
@@ -43,7 +47,7 @@ void World::settle(double wall_seconds) {
 }
 
 void World::fail() {
-  const std::string text = simulation_.failure() ? simulation_.failure()->text() : "the step could not be taken";
+  const std::string text = simulation().failure() ? simulation().failure()->text() : "the step could not be taken";
   change_state(WorldState::failed, text);
   drop_goal("the world failed: " + text);
 }
@@ -55,13 +59,22 @@ void World::close() {
 // ---------------------------------------------------------------- runs, goals, states
 
 void World::begin_run() {
-  chronicle_.begin_run({run_ids_.next(), 1, simulation_.settings().time.step, simulation_.settings().stream});
+  chronicle_.begin_run(
+      {run_ids_.next(), topology_revision_, simulation().settings().time.step, simulation().settings().stream, scene_});
   next_frame_ = 0;
   wall_seconds_ = 0.0;
   end_step_ = find_end_step();
-  format_ = make_stream_format(simulation_.settings().stream);
+  format_ = make_stream_format(simulation().settings().stream);
   warnings_.clear();
   make_frame_due();
+}
+
+// After a reset or a load.
+void World::begin_again() {
+  if (state_ == WorldState::finished || state_ == WorldState::failed) {
+    state_ = options_.paused ? WorldState::paused : WorldState::running;
+  }
+  begin_run();
 }
 
 void World::begin_goal(const Command& command, std::int64_t step, const std::string& text) {
@@ -75,20 +88,24 @@ void World::begin_goal(const Command& command, std::int64_t step, const std::str
 
 std::optional<std::int64_t> World::find_end_step() const {
   constexpr double never = 1e15;  // steps: too far to be counted
-  if (!options_.until || *options_.until / simulation_.settings().time.step > never) return std::nullopt;
-  return simulation_.step_at(*options_.until);
+  if (!options_.until || *options_.until / simulation().settings().time.step > never) return std::nullopt;
+  return simulation().step_at(*options_.until);
 }
 
 bool World::arrived() const {
-  return goal_ ? simulation_.state().step >= goal_->step : at_end();
+  return goal_ ? simulation().state().step >= goal_->step : at_end();
 }
 
 void World::drop_goal(const std::string& reason) {
   if (!goal_) return;
   const Goal goal = *std::exchange(goal_, std::nullopt);
-  answer(goal.command, Outcome::wrong_state,
-         "ended at step " + std::to_string(simulation_.state().step) + ", before step " + std::to_string(goal.step) +
-             ": " + reason);
+  answer(goal.command, Outcome::wrong_state, "step " + std::to_string(goal.step) + " was not reached: " + reason);
+}
+
+// The world ran for its goal only.
+void World::interrupt_goal(const std::string& reason) {
+  if (goal_) state_ = WorldState::paused;
+  drop_goal(reason);
 }
 
 void World::change_state(WorldState state, const std::string& text) {
@@ -102,28 +119,33 @@ void World::follow_parameters() {
   if (end_step_) end_step_ = find_end_step();
   if (goal_) {
     if (const auto* run = std::get_if<RunUntilCommand>(&goal_->command.body)) {
-      goal_->step = simulation_.step_at(run->time);
+      goal_->step = simulation().step_at(run->time);
     }
   }
-  format_ = make_stream_format(simulation_.settings().stream);
+  format_ = make_stream_format(simulation().settings().stream);
   if (due_frame_) {
     due_frame_->format = format_;
     due_frame_->parameter_revision = parameters_.revision();
   }
-  auto warnings = simulation_.calc_warnings();
+  note_new_warnings();
+  chronicle_.note_parameters(
+      {run_id(), simulation().state().step, parameters_.revision(), parameters_.descriptors(), parameters_.values()});
+}
+
+void World::note_new_warnings() {
+  auto warnings = simulation().calc_warnings();
   for (const auto& warning : warnings) {
     if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
       chronicle_.note_warning(moment(), warning);
     }
   }
   warnings_ = std::move(warnings);
-  chronicle_.note_parameters(
-      {run_id(), simulation_.state().step, parameters_.revision(), parameters_.descriptors(), parameters_.values()});
 }
 
 void World::make_frame_due() {
   due_frame_ = FrameHeader{
-      run_id(), next_frame_++, simulation_.state().step, simulation_.state().time, parameters_.revision(), 1, format_};
+      run_id(),           next_frame_++, simulation().state().step, simulation().state().time, parameters_.revision(),
+      topology_revision_, format_};
 }
 
 std::optional<FrameHeader> World::take_due_frame() {
@@ -133,11 +155,11 @@ std::optional<FrameHeader> World::take_due_frame() {
 // ---------------------------------------------------------------- what is known
 
 Moment World::moment() const {
-  return {simulation_.state().step, simulation_.state().time, state_, parameters_.revision()};
+  return {simulation().state().step, simulation().state().time, state_, parameters_.revision()};
 }
 
 MeasuredReport World::calc_measured_report() const {
-  return {simulation_.calc_report(), wall_seconds_, simulation_.settings().time.substeps};
+  return {simulation().calc_report(), wall_seconds_, simulation().settings().time.substeps};
 }
 
 WorldStatus World::calc_status() const {
@@ -147,12 +169,14 @@ WorldStatus World::calc_status() const {
   status.report = calc_measured_report();
   status.rate = parameters_.rate();
   status.parameter_revision = parameters_.revision();
-  status.failure = simulation_.failure();
+  status.topology_revision = topology_revision_;
+  status.failure = simulation().failure();
   status.warnings = warnings_;
-  for (const auto& probe : simulation_.probes()) {
-    status.probes.push_back({probe.name, block3(simulation_.state().positions, probe.particle),
-                             block3(simulation_.state().velocities, probe.particle)});
+  for (const auto& probe : simulation().probes()) {
+    status.probes.push_back({probe.name, block3(simulation().state().positions, probe.particle),
+                             block3(simulation().state().velocities, probe.particle)});
   }
+  status.handles = simulation().calc_handle_reports();
   return status;
 }
 
@@ -163,8 +187,8 @@ Reply World::make_reply(const Command& command, Outcome outcome, std::string rea
   reply.outcome = outcome;
   reply.reason = std::move(reason);
   reply.run_id = run_id();
-  reply.applied_step = simulation_.state().step;
-  reply.time = simulation_.state().time;
+  reply.applied_step = simulation().state().step;
+  reply.time = simulation().state().time;
   reply.state = state_;
   reply.parameter_revision = parameters_.revision();
   if (command.kind == CommandKind::step || command.kind == CommandKind::status) reply.report = calc_measured_report();

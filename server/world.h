@@ -3,16 +3,22 @@
 //
 // A world that reaches the end it was given (`until`) is finished: it may be stepped or run further, and is paused
 // then. After a reset a world runs if it ran, stands if it stood; a finished or failed one starts as it was started.
-// A goal (`step n`, `run_until t`) makes the world run and ends in `paused`; whatever stops the world earlier (pause,
-// reset, a failure, a newer goal) answers the goal's request with wrong_state and says why.
+// Loading another scene is a reset that changes everything but the world's name. Restoring a checkpoint stays within
+// the run: step and time jump, frames are numbered on, and the restored state is a frame; a finished or failed world is
+// paused then. A goal (`step n`, `run_until t`) makes the world run and ends in `paused`; whatever stops the world
+// earlier (pause, reset, load, restore, a failure, a newer goal) answers the goal's request with wrong_state and says
+// why.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/sim/simulation.h"
+#include "core/scene/scene.h"
+#include "server/checkpoint_folder.h"
 #include "server/chronicle.h"
 #include "server/convert/command_types.h"
 #include "server/convert/status_types.h"
@@ -22,21 +28,28 @@
 
 namespace flexcast::server {
 
+// The scene of that name; an error says why there is none.
+using SceneLoader = std::function<Result<Scene>(const std::string& name)>;
+
 struct WorldOptions {
   double rate = 1.0;  // simulated seconds per wall second; 0: as fast as possible
   bool paused = false;
-  std::optional<double> until = {};  // s
+  std::optional<double> until = {};                   // s
+  std::filesystem::path checkpoints = "checkpoints";  // folder of this world's
+  SceneLoader load_scene = {};                        // none: no other scene can be loaded
 };
 
 class World {
  public:
-  World(Simulation& simulation, const WorldOptions& options, RunIds& run_ids);
+  World(Scene scene, const WorldOptions& options, RunIds& run_ids);
 
   WorldState state() const { return state_; }
   bool running() const { return state_ == WorldState::running; }
   std::uint64_t run_id() const { return chronicle_.run_id(); }
   double rate() const { return parameters_.rate(); }
-  const State& simulation_state() const { return simulation_.state(); }
+  std::uint64_t topology_revision() const { return topology_revision_; }  // grows with every scene that is loaded
+  const Simulation& simulation() const { return *scene_->simulation; }
+  const State& simulation_state() const { return simulation().state(); }
   double next_time() const;  // s, after the next step
 
   // Does what the command asks, between two steps. The answer is among the replies, at once or when it is reached.
@@ -71,18 +84,25 @@ class World {
   void do_command(const Command& command, const ResumeCommand&);
   void do_command(const Command& command, const StepCommand& step);
   void do_command(const Command& command, const RunUntilCommand& run_until);
+  void do_command(const Command& command, const LoadCommand& load);
+  void do_command(const Command& command, const SaveCommand& save);
+  void do_command(const Command& command, const RestoreCommand& restore);
+  void do_command(const Command& command, const GrabCommand& grab);
+  void do_command(const Command& command, const ReleaseCommand& release);
   void do_command(const Command& command, const StatusCommand&);
-  void do_command(const Command& command, const UnsupportedCommand&);
   void do_command(const Command& command, const MalformedCommand& malformed);
 
   void begin_run();
+  void begin_again();
   void begin_goal(const Command& command, std::int64_t step, const std::string& text);
   void drop_goal(const std::string& reason);
+  void interrupt_goal(const std::string& reason);
   void change_state(WorldState state, const std::string& text);
   void fail();
   void follow_parameters();
+  void note_new_warnings();
   std::optional<std::int64_t> find_end_step() const;
-  bool at_end() const { return end_step_ && simulation_.state().step >= *end_step_; }
+  bool at_end() const { return end_step_ && simulation().state().step >= *end_step_; }
   bool arrived() const;  // at the goal; without one at the end
   void make_frame_due();
 
@@ -91,9 +111,11 @@ class World {
   Reply make_reply(const Command& command, Outcome outcome, std::string reason = {}) const;
   void answer(const Command& command, Outcome outcome, std::string reason = {});
 
-  Simulation& simulation_;
+  std::shared_ptr<const Scene> scene_;  // shared: see RunStarted
+  std::uint64_t topology_revision_ = 1;
   WorldOptions options_;
   RunIds& run_ids_;
+  CheckpointFolder checkpoints_;
   ParameterTable parameters_;
   Chronicle chronicle_;
   WorldState state_ = WorldState::paused;

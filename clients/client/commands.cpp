@@ -47,4 +47,24 @@ Result<Reply> Connection::run_until(double time, std::chrono::nanoseconds timeou
   return send({.kind = flexcast_COMMAND_RUN_UNTIL, .time = time}, timeout);
 }
 
+Result<Reply> Connection::save(const std::string& name) {
+  return send({.kind = flexcast_COMMAND_SAVE, .name = name});
+}
+
+Result<Reply> Connection::restore(const std::string& name) {
+  return send({.kind = flexcast_COMMAND_RESTORE, .name = name});
+}
+
+Result<Reply> Connection::load(const std::string& name) {
+  return send({.kind = flexcast_COMMAND_LOAD, .name = name});
+}
+
+Result<Reply> Connection::grab(std::uint32_t particle, const Vector& target, double stiffness) {
+  return send({.kind = flexcast_COMMAND_GRAB, .particle = particle, .target = target, .stiffness = stiffness});
+}
+
+Result<Reply> Connection::release(std::uint32_t particle) {
+  return send({.kind = flexcast_COMMAND_RELEASE, .particle = particle});
+}
+
 }  // namespace flexcast::client

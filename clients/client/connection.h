@@ -65,6 +65,19 @@ class Connection {
   Result<Reply> step(std::uint64_t count = 1, std::chrono::nanoseconds timeout = forever);
   Result<Reply> run_until(double time, std::chrono::nanoseconds timeout = forever);
 
+  // Checkpoints, by name, on the server's disk: also across restarts of the server. A restored state goes on to the
+  // last bit as the saved one did.
+  Result<Reply> save(const std::string& name);
+  Result<Reply> restore(const std::string& name);
+
+  // Replaces the scene by another one of the server's folder; the run is a new one.
+  Result<Reply> load(const std::string& name);
+
+  // Pulls a particle (number within the world) to a place, m, until it is released; a second grab moves the place.
+  // stiffness in N/m; 0: chosen by the server.
+  Result<Reply> grab(std::uint32_t particle, const Vector& target, double stiffness = 0.0);
+  Result<Reply> release(std::uint32_t particle);
+
   // The next status the server publishes (four times a second): written after the call.
   Result<Status> status(std::chrono::nanoseconds timeout = std::chrono::seconds(5));
 

@@ -9,6 +9,10 @@ constexpr const char* footer = R"(Examples:
   flexcast-ctl list
   flexcast-ctl --world cantilever set beam.young=2e6 'gravity=[0, 0, -3]'
   flexcast-ctl step 100 --json
+  flexcast-ctl save before-the-fall
+  flexcast-ctl restore before-the-fall
+  flexcast-ctl grab 120 0.5 0 -0.2 --stiffness 40
+  flexcast-ctl release 120
 
 Values are written as in TOML; texts need no quotes. Results go to stdout, messages to stderr.
 Exit code: 0 done, 1 the operation failed, 2 bad usage.)";
@@ -18,6 +22,15 @@ CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name,
   command->fallthrough();  // options may follow the verb
   command->callback([&options, verb] { options.verb = verb; });
   return command;
+}
+
+void add_named(CLI::App& app, Options& options, Verb verb, const char* name, const char* description,
+               const char* what) {
+  add_verb(app, options, verb, name, description)->add_option("NAME", options.words, what)->required()->expected(1);
+}
+
+void add_particle(CLI::App& verb, Options& options) {
+  verb.add_option("PARTICLE", options.particle, "Number within the world")->required();
 }
 
 void add_verbs(CLI::App& app, Options& options) {
@@ -39,10 +52,17 @@ void add_verbs(CLI::App& app, Options& options) {
   add_verb(app, options, Verb::run_until, "run-until", "Run until a simulated time and stop there")
       ->add_option("T", options.time, "Simulated time, s")
       ->required();
-  for (const auto& [verb, name, description] : {std::tuple(Verb::load, "load", "Load a scene of the server's folder"),
-                                                std::tuple(Verb::save, "save", "Save a checkpoint"),
-                                                std::tuple(Verb::restore, "restore", "Restore a checkpoint")})
-    add_verb(app, options, verb, name, description)->add_option("NAME", options.words)->required()->expected(1);
+  add_named(app, options, Verb::save, "save", "Save a checkpoint on the server's disk", "Name of the checkpoint");
+  add_named(app, options, Verb::restore, "restore", "Go back (or on) to a checkpoint", "Name of the checkpoint");
+  add_named(app, options, Verb::load, "load", "Replace the scene by another one of the server's folder",
+            "The scene's file, without .toml");
+  CLI::App* grab = add_verb(app, options, Verb::grab, "grab", "Pull a particle to a place until it is released");
+  add_particle(*grab, options);
+  for (const auto& [i, axis] : {std::pair(0, "X"), std::pair(1, "Y"), std::pair(2, "Z")})
+    grab->add_option(axis, options.target[i], "Place, m")->required();
+  grab->add_option("--stiffness", options.stiffness, "Of the pull, N/m; 0: chosen by the server")
+      ->capture_default_str();
+  add_particle(*add_verb(app, options, Verb::release, "release", "Let a grabbed particle go"), options);
   add_verb(app, options, Verb::status, "status", "State, health and the report of the newest step")
       ->add_flag("--watch", options.watch, "A line for every status until interrupted");
 }

@@ -11,7 +11,23 @@
 
 namespace flexcast::ctl {
 
-enum class Verb { list, describe, get, set, reset, pause, resume, step, run_until, load, save, restore, status };
+enum class Verb {
+  list,
+  describe,
+  get,
+  set,
+  reset,
+  pause,
+  resume,
+  step,
+  run_until,
+  save,
+  restore,
+  load,
+  grab,
+  release,
+  status
+};
 
 struct Options {
   client::ConnectOptions connect;
@@ -21,6 +37,9 @@ struct Options {
   bool keep_parameters = false;
   std::uint64_t count = 1;
   double time = 0;
+  std::uint32_t particle = 0;  // grab, release
+  client::Vector target{};     // grab
+  double stiffness = 0;        // grab
   bool watch = false;
 };
 

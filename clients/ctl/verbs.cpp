@@ -16,10 +16,6 @@ int fail(std::ostream& err, const std::string& message) {
   return 1;
 }
 
-Result<Reply> named(client::Connection& connection, flexcast_CommandKind kind, const Options& options) {
-  return connection.send({.kind = kind, .name = options.words.at(0)});
-}
-
 Result<Reply> execute(const Options& options, client::Connection& connection) {
   switch (options.verb) {
     case Verb::describe:
@@ -39,11 +35,15 @@ Result<Reply> execute(const Options& options, client::Connection& connection) {
     case Verb::run_until:
       return connection.run_until(options.time);
     case Verb::load:
-      return named(connection, flexcast_COMMAND_LOAD, options);
+      return connection.load(options.words.at(0));
     case Verb::save:
-      return named(connection, flexcast_COMMAND_SAVE, options);
+      return connection.save(options.words.at(0));
     case Verb::restore:
-      return named(connection, flexcast_COMMAND_RESTORE, options);
+      return connection.restore(options.words.at(0));
+    case Verb::grab:
+      return connection.grab(options.particle, options.target, options.stiffness);
+    case Verb::release:
+      return connection.release(options.particle);
     case Verb::list:
     case Verb::status:
       break;

@@ -82,8 +82,9 @@ RunSummary RunLedger::summary() const {
   summary.first_frame = complete_.first();
   summary.last_frame = complete_.last();
   summary.frames = complete_.size();
-  summary.steps = last_.step - first_.step;
-  summary.seconds = last_.time - first_.time;
+  // A restored checkpoint may go back before the first frame.
+  summary.steps = last_.step - std::min(first_.step, last_.step);
+  summary.seconds = last_.time - std::min(first_.time, last_.time);
   return summary;
 }
 

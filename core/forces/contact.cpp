@@ -53,9 +53,12 @@ class Contact final : public Force {
   void follow_parameters(std::span<const ModeBound> elastic) override {
     const Eigen::Map<const Eigen::Matrix3Xd> rest(model_.rest_positions.data(), 3, model_.particle_count());
     const double size = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
-    const double by_weight = size > 0.0 ? 1e4 * model_.gravity.norm() / size : 0.0;
+    const double by_weight = 1e4 * model_.gravity.norm() / (size > 0.0 ? size : 1.0);
     chosen_rates_.clear();
     for (const ModeBound& bound : elastic) chosen_rates_.push_back(std::max(0.25 * bound.omega_squared, by_weight));
+    for (double& rate : chosen_rates_) {
+      if (rate == 0.0) rate = 1e4;
+    }
   }
 
   void add_conservative(const VecX& x, VecX& f) const override {
@@ -91,9 +94,10 @@ class Contact final : public Force {
     });
   }
 
-  // One-sided: C = -depth, with the push k as its stiffness. A particle keeps one multiplier for each obstacle.
+  // One-sided: C = -depth, with the push k as its stiffness. A particle keeps four numbers for each obstacle: the
+  // multiplier, and how far friction has moved it (m).
   std::int64_t constraint_count() const override {
-    return model_.particle_count() * static_cast<std::int64_t>(model_.obstacles.size());
+    return 4 * model_.particle_count() * static_cast<std::int64_t>(model_.obstacles.size());
   }
   void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override;
 
@@ -159,7 +163,9 @@ void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> 
     for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
       const Vec3 w = block3(sweep.inverse_masses, i);
       for (std::size_t o = 0; o < count; ++o) {
-        double& multiplier = lambda[static_cast<std::size_t>(i) * count + o];
+        const std::size_t first = 4 * (static_cast<std::size_t>(i) * count + o);
+        double& multiplier = lambda[first];
+        Eigen::Map<Vec3> rubbed(&lambda[first + 1]);
         const Touch touch = find_touch(model_.obstacles[o], block3(x, i));
         if (!(touch.depth > 0.0) && multiplier == 0.0) continue;
         const double s = sweep.h * sweep.h * stiffness(model_.obstacles[o], rate, i);
@@ -168,12 +174,14 @@ void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> 
         const double change = std::max(unbounded, -multiplier);  // it pushes, never pulls
         multiplier += change;
         block3(x, i) += change * wn;
-        // Friction stops sliding with an impulse up to the coefficient times the normal one.
-        const Vec3 moved = block3(x, i) - block3(sweep.start, i);
+        // Friction stops sliding with an impulse up to the coefficient times the normal one, over all sweeps.
+        const Vec3 moved = block3(x, i) - rubbed - block3(sweep.start, i);
         const Vec3 slid = w.cwiseSign().cwiseAbs().cwiseProduct(moved - touch.normal.dot(moved) * touch.normal);
         const double length = slid.norm();
         const double most = model_.obstacles[o].friction * multiplier * w.maxCoeff();
-        if (length > 0.0 && most > 0.0) block3(x, i) -= std::min(1.0, most / length) * slid;
+        const Vec3 held = length > 0.0 ? Vec3(-std::min(1.0, most / length) * slid) : Vec3(Vec3::Zero());
+        block3(x, i) += held - rubbed;
+        rubbed = held;
       }
     }
   });

@@ -45,6 +45,7 @@ void System::refresh() {
     has_damping_ = has_damping_ || force->has_damping();
     has_friction_ = has_friction_ || force->has_friction();
   }
+  stiffness_norm_ = calc_stiffness_norm();
 }
 
 double System::calc_force(const VecX& x, const VecX& v, VecX& f) const {

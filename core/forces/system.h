@@ -71,15 +71,17 @@ class System {
   // One per body.
   std::vector<ModeBound> calc_mode_bounds() const;
   // N/m, norm over all degrees of freedom of mass times the largest omega^2: forces that move everything by a length.
-  double calc_stiffness_norm() const;
+  double stiffness_norm() const { return stiffness_norm_; }
 
  private:
+  double calc_stiffness_norm() const;
+
   const Model& model_;
   std::vector<std::unique_ptr<Force>> forces_;
   std::vector<const Force*> active_;
   VecX dof_masses_, inverse_masses_, free_;
   bool has_damping_ = false, has_friction_ = false;
-  double size_ = 0.0;
+  double size_ = 0.0, stiffness_norm_ = 0.0;
 };
 
 }  // namespace flexcast

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/base/checks.h"
+#include "core/forces/friction.h"
 #include "core/integrators/incremental_potential.h"
 #include "core/integrators/velocity_change.h"
 
@@ -14,7 +15,8 @@ class Bdf2 final : public Integrator {
   Bdf2(const System& system, const SolverSettings& settings) : solver_(system, settings) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    const double power = system.has_damping() ? system.calc_damping(state.positions, state.velocities, force_) : 0.0;
+    double power = system.has_damping() ? system.calc_damping(state.positions, state.velocities, force_) : 0.0;
+    if (system.has_friction()) power += calc_friction_power(system, state);
     begin_stage(system, h, state);
     solver_.solve(system, stage_, u_, statistics);
     statistics.dissipated += 0.5 * h * (power + solver_.calc_dissipated_power(u_));
@@ -50,6 +52,14 @@ class Bdf2 final : public Integrator {
   }
 
  private:
+  static double calc_friction_power(const System& system, const State& state) {
+    double power = 0.0;
+    for (const FrictionPoint& point : system.find_friction_points(state.positions)) {
+      power += point.limit * calc_tangential(point, block3(state.velocities, point.particle)).norm();
+    }
+    return power;
+  }
+
   void begin_stage(const System& system, double h, const State& state) {
     stage_.length = h;
     stage_.end_time = state.time + h;
@@ -62,6 +72,12 @@ class Bdf2 final : public Integrator {
     stage_.length = h * (1.0 + w) / (1.0 + 2.0 * w);
     stage_.base += last * system.free().cwiseProduct(state.positions - last_positions_);
     stage_.base_velocity += last * system.free().cwiseProduct(state.velocities - last_velocities_);
+    if (!system.has_handles()) return;
+    // Handles' particles end where and as fast as prescribed: their base is such that u / g is their velocity.
+    VecX x = state.positions, v = state.velocities;
+    system.prescribe(stage_.end_time, x, v);
+    const VecX held = VecX::Ones(x.size()) - system.free();
+    stage_.base += held.cwiseProduct(x - stage_.length * v - stage_.base);
   }
 
   ImplicitSolver solver_;

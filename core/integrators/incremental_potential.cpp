@@ -13,7 +13,7 @@ void IncrementalPotential::begin(const System& system, const ImplicitStage& stag
   system_ = &system;
   stage_ = &stage;
   slip_ = 1e-4 * system.size() * stage.length;
-  floor_ = 1e-6 * system.size() * (stiffness_norm_ + system.masses().norm() / (stage.length * stage.length));
+  noise_ = 1e-14 * system.size() * (system.stiffness_norm() + system.masses().norm() / (stage.length * stage.length));
   friction_.clear();
   u.setZero(system.dofs());
   if (system.has_handles()) {
@@ -55,7 +55,7 @@ double IncrementalPotential::calc_gradient(const VecX& u, VecX& gradient) {
   inertia_ = system_->masses().cwiseProduct(u - g * stage_->base_velocity).cwiseProduct(free) / (g * g);
   system_->calc_position_dependent(x_, elastic_);
   force_ = elastic_ + constant_;
-  double terms = floor_ + inertia_.norm() + elastic_.cwiseProduct(free).norm() + constant_.cwiseProduct(free).norm();
+  double terms = inertia_.norm() + elastic_.cwiseProduct(free).norm() + constant_.cwiseProduct(free).norm();
   damping_power_ = 0.0;
   if (system_->has_damping()) {
     velocity_ = u / g;

@@ -24,7 +24,6 @@ struct ImplicitStage {
 
 class IncrementalPotential final : public MinimizationProblem {
  public:
-  explicit IncrementalPotential(const System& system) : stiffness_norm_(system.calc_stiffness_norm()) {}
   // Only who asks for Hessians pays for matrices.
   BlockMatrix make_hessian(const System& system);
   // Starts a stage; u becomes a first guess: 0, but where handles say so.
@@ -35,6 +34,7 @@ class IncrementalPotential final : public MinimizationProblem {
   Value calc_value(const VecX& u) override;
   double calc_gradient(const VecX& u, VecX& gradient) override;
   void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) override;
+  double calc_noise() const override { return noise_; }
 
   // All forces at the u of the last calc_gradient, held particles included.
   const VecX& force() const { return force_; }
@@ -49,8 +49,7 @@ class IncrementalPotential final : public MinimizationProblem {
  private:
   const System* system_ = nullptr;
   const ImplicitStage* stage_ = nullptr;
-  double stiffness_norm_ = 0.0;          // N/m
-  double floor_ = 0.0;                   // N, forces below are rounding
+  double noise_ = 0.0;                   // N
   double slip_ = 0.0;                    // m
   std::vector<FrictionPoint> friction_;  // of the last round
   BlockMatrix base_matrix_;              // M / g^2 + D / g, of this stage once a Hessian was asked for
@@ -63,7 +62,7 @@ class IncrementalPotential final : public MinimizationProblem {
 class ImplicitSolver {
  public:
   ImplicitSolver(const System& system, const SolverSettings& settings)
-      : potential_(system), newton_(settings, system.dofs() / 3), hessian_(potential_.make_hessian(system)) {}
+      : newton_(settings, system.dofs() / 3), hessian_(potential_.make_hessian(system)) {}
 
   // u: the displacement from the stage's base.
   void solve(const System& system, const ImplicitStage& stage, VecX& u, StepStatistics& statistics);

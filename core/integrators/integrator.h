@@ -21,7 +21,8 @@ class Integrator {
   virtual void step(const System& system, double h, State& state, StepStatistics& statistics) = 0;
   // The state or the system changed between two steps: what was kept from the last step is void.
   virtual void invalidate() {}
-  // What a scheme of several steps knows of the past, for a scheme of the same name to go on from. Empty: nothing.
+  // What a scheme of several steps knows of the past, for a scheme of the same name to go on from: a step and, of its
+  // start, positions and velocities. Empty: nothing.
   virtual VecX history() const { return {}; }
   virtual void set_history(const VecX& /*history*/) {}
 };

@@ -39,7 +39,7 @@ class StaticPotential final : public MinimizationProblem {
     system_ = &system;
     start_ = &state.positions;
     shift_ = smallest_shift;
-    floor_ = 1e-6 * system.size() * system.calc_stiffness_norm();
+    noise_ = 1e-14 * system.size() * system.stiffness_norm();
     u.setZero(system.dofs());
     if (system.has_handles()) {
       x_ = state.positions;
@@ -61,7 +61,7 @@ class StaticPotential final : public MinimizationProblem {
     x_ = *start_ + u;
     system_->calc_position_dependent(x_, force_);
     const double terms =
-        force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm() + floor_;
+        force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm();
     force_ += constant_;
     gradient = -force_.cwiseProduct(system_->free());
     return terms;
@@ -80,6 +80,8 @@ class StaticPotential final : public MinimizationProblem {
     hessian.add_diagonal(shift_ * largest_rate_ * system_->masses());
     hessian.hold(system_->free());
   }
+
+  double calc_noise() const override { return noise_; }
 
   bool adapt(double length) override {
     if (length == 1.0) {
@@ -114,7 +116,7 @@ class StaticPotential final : public MinimizationProblem {
   const System* system_ = nullptr;
   const VecX* start_ = nullptr;
   double shift_ = smallest_shift, largest_rate_ = 0.0;
-  double floor_ = 0.0;  // N, forces below are rounding
+  double noise_ = 0.0;  // N
   VecX constant_, x_, force_;
 };
 
@@ -127,6 +129,7 @@ class QuasiStatic final : public Integrator {
     potential_.begin(system, state.time + h, state, u_);
     system.calc_conservative(state.positions, start_force_);
     const double start_potential = system.calc_potential(state.positions);
+    const double stopped = system.calc_kinetic(state.velocities);
     const NewtonResult result = newton_.minimize(potential_, hessian_, VecX::Zero(u_.size()), u_);
     statistics.iterations += result.iterations;
     statistics.linear_iterations += result.linear_iterations;
@@ -138,8 +141,8 @@ class QuasiStatic final : public Integrator {
     const double handle_work = way.dot(system.free()) - way.sum();
     const double released = handle_work - (system.calc_potential(state.positions + u_) - start_potential);
     statistics.handle_work += handle_work;
-    statistics.force_work -= handle_work;
-    statistics.dissipated += std::max(released, 0.0);
+    statistics.force_work -= handle_work + stopped;
+    statistics.dissipated += std::max(released, 0.0) + stopped;
 
     start_ = state.positions;
     state.positions += u_;

@@ -1,6 +1,7 @@
 #include "core/integrators/vbd.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <limits>
 
 #include "core/forces/friction.h"
@@ -15,13 +16,14 @@ class Vbd final : public Integrator {
  public:
   Vbd(const System& system, const SolverSettings& settings)
       : settings_(settings),
-        colors_(make_colors(static_cast<std::int32_t>(system.dofs() / 3), system.make_couplings())),
-        potential_(system) {}
+        colors_(make_colors(static_cast<std::int32_t>(system.dofs() / 3), system.make_couplings())) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
     stage_ = {h, state.time + h, state.positions, state.velocities, state.positions};
     potential_.begin(system, stage_, u_);
-    u_ += potential_.calc_drift() + h * h * system.inverse_masses().cwiseProduct(potential_.constant_force());
+    // Sweeps only descend, so the better of two starts bounds the energy at any step.
+    drifted_ = u_ + potential_.calc_drift() + h * h * system.inverse_masses().cwiseProduct(potential_.constant_force());
+    if (potential_.calc_value(drifted_).value <= potential_.calc_value(u_).value) u_ = drifted_;
     for (int i = 0; i < settings_.iterations; ++i) {
       for (const auto& particles : colors_) update(system, particles);
     }
@@ -40,13 +42,6 @@ class Vbd final : public Integrator {
       if (!force->is_constant()) force->add_blocks(x_, particles, f_, K_);
       if (force->has_damping()) force->add_damping_blocks(stage_.base, velocity_, 1.0 / h, particles, f_, K_);
     }
-    for (const FrictionPoint& point : potential_.friction_points()) {
-      const auto found = std::lower_bound(particles.begin(), particles.end(), point.particle);
-      if (found == particles.end() || *found != point.particle) continue;
-      const auto i = static_cast<std::size_t>(found - particles.begin());
-      f_[i] -= calc_friction_potential(point, potential_.slip(), block3(u_, point.particle)).gradient;
-      K_[i] += calc_friction_tangent(point, potential_.slip(), block3(u_, point.particle));
-    }
     for (std::size_t i = 0; i < particles.size(); ++i) move(system, particles[i], f_[i], K_[i]);
   }
 
@@ -59,7 +54,40 @@ class Vbd final : public Integrator {
     f = f.cwiseProduct(free);
     K = free.asDiagonal() * K * free.asDiagonal();
     K.diagonal() += Vec3::Ones() - free;
-    block3(u_, particle) += K.ldlt().solve(f);
+    block3(u_, particle) += find_step(particle, free, f, K);
+  }
+
+  // The d that minimises d.K d / 2 - f.d + friction(u + d). Friction is convex but has no useful second order where it
+  // sets in, so its part is iterated with a line search.
+  Vec3 find_step(std::int32_t particle, const Vec3& free, const Vec3& f, const Mat3& K) const {
+    const auto& all = potential_.friction_points();  // those of a particle are neighbours
+    const auto [first, last] = std::equal_range(all.begin(), all.end(), FrictionPoint{particle},
+                                                [](const auto& a, const auto& b) { return a.particle < b.particle; });
+    Vec3 d = Vec3::Zero();
+    if (first == last) return K.ldlt().solve(f);
+    const Vec3 u = block3(u_, particle);
+    const auto calc_value = [&](const Vec3& at) {
+      double value = 0.5 * at.dot(K * at) - f.dot(at);
+      for (auto point = first; point != last; ++point) {
+        value += calc_friction_potential(*point, potential_.slip(), u + at).value;
+      }
+      return value;
+    };
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      Vec3 gradient = K * d - f;
+      Mat3 hessian = K;
+      for (auto point = first; point != last; ++point) {
+        gradient += free.cwiseProduct(calc_friction_potential(*point, potential_.slip(), u + d).gradient);
+        hessian += free.asDiagonal() * calc_friction_tangent(*point, potential_.slip(), u + d) * free.asDiagonal();
+      }
+      const Vec3 step = -hessian.ldlt().solve(gradient);
+      const double value = calc_value(d);
+      double length = 1.0;
+      while (length > 1e-6 && !(calc_value(d + length * step) < value)) length *= 0.5;
+      if (length <= 1e-6) break;
+      d += length * step;
+    }
+    return d;
   }
 
   void finish(const System& system, State& state, StepStatistics& statistics) {
@@ -81,7 +109,7 @@ class Vbd final : public Integrator {
   std::vector<std::vector<std::int32_t>> colors_;
   IncrementalPotential potential_;
   ImplicitStage stage_;
-  VecX u_, x_, velocity_, gradient_;
+  VecX u_, drifted_, x_, velocity_, gradient_;
   std::vector<Vec3> f_;
   std::vector<Mat3> K_;
 };

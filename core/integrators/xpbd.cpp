@@ -12,7 +12,7 @@ namespace {
 
 class Xpbd final : public Integrator {
  public:
-  Xpbd(const System& system, const SolverSettings& settings) : settings_(settings), potential_(system) {
+  Xpbd(const System& system, const SolverSettings& settings) : settings_(settings) {
     all_.resize(static_cast<std::size_t>(system.dofs() / 3));
     std::iota(all_.begin(), all_.end(), 0);
   }

@@ -41,12 +41,13 @@ bool solve_static(Simulation& simulation, const StaticOptions& options) {
   for (int i = 0; i < increments && !is_stopped(); ++i) {
     if (!simulation.step()) return false;
   }
-  double residual = simulation.statistics().residual;
-  for (int i = 0; i < options.most_steps && residual > wanted && !is_stopped(); ++i) {
+  const auto is_found = [&] {
+    return simulation.statistics().converged || simulation.statistics().residual <= wanted;
+  };
+  for (int i = 0; i < options.most_steps && !is_found() && !is_stopped(); ++i) {
     if (!simulation.step()) return false;
-    residual = simulation.statistics().residual;
   }
-  return residual <= wanted;
+  return is_found();
 }
 
 }  // namespace flexcast

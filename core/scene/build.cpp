@@ -225,6 +225,10 @@ class Builder {
       const Place& place = description_.bodies[i].place;
       const IndexRange range = model.bodies[i].particles;
       const auto finite = [&](const VecX& v) { return v.segment(3 * range.first, 3 * range.count).allFinite(); };
+      constexpr double largest = 1e38;  // m: single precision ends there
+      if (!(built_.model.rest_positions.segment(3 * range.first, 3 * range.count).cwiseAbs().maxCoeff() <= largest) ||
+          !(built_.state.positions.segment(3 * range.first, 3 * range.count).cwiseAbs().maxCoeff() <= largest))
+        refuse_owner(place, "has positions beyond 1e38 m, where single precision ends");
       if (!finite(built_.state.positions)) refuse_owner(place, "displacement gives positions that are not finite");
       if (!finite(built_.state.velocities)) refuse_owner(place, "velocity gives velocities that are not finite");
       if (model.external_forces.size() > 0 && !finite(model.external_forces))

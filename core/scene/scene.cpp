@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -25,22 +26,37 @@ toml::table parse(const std::string& text, const std::string& origin) {
   }
 }
 
+// Values in range can still multiply up to more than a double holds.
+void check_start(const Simulation& simulation, const SceneDescription& description) {
+  const StepReport report = simulation.calc_report();
+  const std::pair<const char*, double> energies[] = {
+      {"elastic", report.elastic}, {"gravity", report.gravity}, {"contact", report.contact},
+      {"kinetic", report.kinetic}, {"external", report.work}};
+  for (const auto& [name, value] : energies) {
+    if (!std::isfinite(value))
+      refuse_owner(description.bodies.front().place, "the " + std::string(name) +
+                                                         " energy of the scene at its start is not finite in double "
+                                                         "precision; sizes or coefficients are too extreme");
+  }
+}
+
 Scene load(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
            const std::vector<std::string>& overrides) {
   toml::table document = parse(text, origin);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
-  SceneDescription description = read_scene(document);
+  const SceneDescription description = read_scene(document);
   BuiltScene built = build_scene(description, directory);
 
   Scene scene;
-  scene.name = std::move(description.name);
-  scene.description = std::move(description.description);
+  scene.name = description.name;
+  scene.description = description.description;
   scene.text = text;
   scene.overrides = overrides;
   scene.files = std::move(built.files);
   scene.notes = std::move(built.notes);
-  scene.simulation = std::make_unique<Simulation>(std::move(built.model), std::move(description.settings),
+  scene.simulation = std::make_unique<Simulation>(std::move(built.model), description.settings,
                                                   std::move(built.state), std::move(built.probes));
+  check_start(*scene.simulation, description);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "core/sim/simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -15,7 +16,11 @@
 namespace flexcast {
 namespace {
 
-constexpr std::int64_t modes_last_for = 500;  // steps
+constexpr std::int64_t stable_step_lasts = 500;  // steps
+
+bool is_usable(const VecX& masses) {
+  return std::all_of(masses.begin(), masses.end(), [](double mass) { return ranges::positive.contains(mass); });
+}
 
 }  // namespace
 
@@ -50,8 +55,10 @@ void Simulation::follow_model() {
   update_masses(*model_);
   model_->jump_time = state_.time;
   system_->refresh();
-  system_->prescribe(state_.time, state_.positions, state_.velocities);
-  modes_.clear();
+  VecX velocities = state_.velocities;
+  system_->prescribe(state_.time, state_.positions, velocities);
+  if (settings_.time.integrator != "quasi_static") state_.velocities = velocities;  // it knows no velocities
+  stable_step_.reset();
 }
 
 // What follows from model and settings is made anew, so that a changed scene is a scene loaded that way.
@@ -69,16 +76,17 @@ void Simulation::book_start() {
 
 template <class Change>
 void Simulation::book_jump(Change change) {
-  const auto add = [this](double sign) {
-    const double external = system_->calc_energy(EnergyKind::external, state_.positions);
-    const double potential = system_->calc_potential(state_.positions);
-    books_.jump += sign * (system_->calc_kinetic(state_.velocities) + potential - external);
-    books_.potential_jump += sign * potential;
-    books_.external_jump += sign * external;
+  // Differences first: a change that is none leaves the books as they are.
+  const auto measure = [this] {
+    return std::array{system_->calc_kinetic(state_.velocities), system_->calc_potential(state_.positions),
+                      system_->calc_energy(EnergyKind::external, state_.positions)};
   };
-  add(-1.0);
+  const auto [kinetic, potential, external] = measure();
   change();
-  add(1.0);
+  const auto [kinetic_now, potential_now, external_now] = measure();
+  books_.potential_jump += potential_now - potential;
+  books_.external_jump += external_now - external;
+  books_.jump += (kinetic_now - kinetic) + (potential_now - potential) - (external_now - external);
 }
 
 double Simulation::time_at(std::int64_t step) const {
@@ -96,7 +104,8 @@ bool Simulation::step() {
     integrator_->step(*system_, h, state_, statistics_);
   }
   state_.time = start;
-  if (!is_publishable(state_) || !std::isfinite(statistics_.residual)) {
+  const double moved = statistics_.force_work + statistics_.handle_work + statistics_.dissipated;
+  if (!is_publishable(state_) || !std::isfinite(statistics_.residual + moved)) {
     note_failure();
     return false;
   }
@@ -126,6 +135,9 @@ void Simulation::jump() {
 
 void Simulation::note_failure() {
   failure_ = find_failure(*model_, before_, state_);
+  if (is_publishable(state_) && std::isfinite(statistics_.residual)) {
+    failure_->cause = "the energies of the step passed the range of double precision";
+  }
   failure_->step = state_.step + 1;
   const IntegratorRow& row = *find_integrator(settings_.time.integrator);
   const double limit = calc_stable_step();
@@ -141,6 +153,8 @@ void Simulation::note_failure() {
   }
   state_.positions = before_.positions;
   state_.velocities = before_.velocities;
+  statistics_ = {};
+  statistics_.converged = false;
   integrator_->invalidate();
 }
 
@@ -153,10 +167,7 @@ void Simulation::reset(bool keep_parameters) {
     for (const ParameterDescriptor& descriptor : parameters_) {
       if (parameter(descriptor) != descriptor.initial) scene_values.push_back({descriptor.name, descriptor.initial});
     }
-    for (const ParameterAssignment& assignment : scene_values) {
-      const ParameterDescriptor* descriptor = find_parameter(assignment.name);
-      descriptor->row->set(*model_, settings_, descriptor->index, assignment.value);
-    }
+    assign(scene_values);
     if (!scene_values.empty()) ++parameter_revision_;
   }
   state_ = initial_;
@@ -190,33 +201,58 @@ Result<std::vector<ParameterAssignment>> Simulation::convert_values(
   return converted;
 }
 
-// Takes converted values; when together they are not allowed, everything stays as it was.
-Result<void> Simulation::apply_values(std::span<const ParameterAssignment> assignments) {
-  std::vector<ParameterAssignment> old;
-  const auto set = [this](const ParameterAssignment& assignment) {
+void Simulation::assign(std::span<const ParameterAssignment> assignments) {
+  for (const ParameterAssignment& assignment : assignments) {
     const ParameterDescriptor* descriptor = find_parameter(assignment.name);
     descriptor->row->set(*model_, settings_, descriptor->index, assignment.value);
-  };
-  for (const ParameterAssignment& assignment : assignments) {
-    old.push_back({assignment.name, parameter(*find_parameter(assignment.name))});
-    set(assignment);
   }
-  auto checked = check_model(*model_);
-  if (!checked) std::for_each(old.rbegin(), old.rend(), set);
-  return checked;
+  update_masses(*model_);
+}
+
+std::vector<ParameterAssignment> Simulation::values_of(std::span<const ParameterAssignment> assignments) const {
+  std::vector<ParameterAssignment> values;
+  for (const ParameterAssignment& assignment : assignments) {
+    values.push_back({assignment.name, parameter(*find_parameter(assignment.name))});
+  }
+  return values;
+}
+
+// What ranges of single values cannot say of those just assigned.
+Result<void> Simulation::check_assigned(std::span<const ParameterAssignment> assignments) const {
+  if (auto checked = check_model(*model_); !checked) return checked;
+  const auto refuse = [&](const char* what) {
+    std::string text;
+    for (const ParameterAssignment& assignment : assignments) {
+      text += (text.empty() ? "" : ", ") + assignment.name + " = " + to_text(assignment.value);
+    }
+    return Error{text + " gives " + what + " in double precision"};
+  };
+  if (!is_usable(model_->masses)) return refuse("particles a mass that is not > 0 and finite");
+  if (!std::isfinite(system_->calc_potential(state_.positions))) return refuse("energies that are not finite");
+  return {};
 }
 
 Result<void> Simulation::set_parameters(std::span<const ParameterAssignment> assignments) {
   const auto converted = convert_values(assignments);
   if (!converted) return converted.error();
+  const std::vector<ParameterAssignment> before = values_of(converted.value());
   const TimeSettings old = settings_.time;
-  const VecX history = integrator_->history();
-  Result<void> applied;
+  const EnergyBooks old_books = books_;
+  const VecX history = integrator_->history(), positions = state_.positions, velocities = state_.velocities;
+  Result<void> checked;
   book_jump([&] {
-    applied = apply_values(converted.value());
-    if (applied) follow_model();
+    assign(converted.value());
+    follow_model();
+    checked = check_assigned(converted.value());
   });
-  if (!applied) return applied;
+  if (!checked) {
+    assign(before);
+    follow_model();
+    books_ = old_books;
+    state_.positions = positions;
+    state_.velocities = velocities;
+    return checked;
+  }
   if (settings_.time.step != old.step) {
     base_step_ = state_.step;
     base_time_ = state_.time;
@@ -231,9 +267,11 @@ double Simulation::choose_grab_stiffness(std::int32_t particle) const {
   const Body& body = *find_body_of_particle(*model_, particle);
   const double mass = model_->masses.segment(body.particles.first, body.particles.count).sum();
   const double wanted = mass * 400.0;  // the body as a whole swings about the target with 20 rad/s
-  double fastest = 0.0;
-  for (const ModeBound& bound : system_->calc_mode_bounds()) fastest = std::max(fastest, bound.omega_squared);
-  return fastest > 0.0 ? std::min(wanted, fastest * model_->masses[particle]) : wanted;
+  // A fifth of what the body's fastest mode has costs explicit schemes a tenth of their step. Of the present state, so
+  // that nobody's questions change what happens.
+  const auto index = static_cast<std::size_t>(&body - model_->bodies.data());
+  const double fastest = calc_largest_modes(*system_, *model_, state_.positions)[index].omega_squared;
+  return fastest > 0.0 ? std::min(wanted, 0.2 * fastest * model_->masses[particle]) : wanted;
 }
 
 Result<void> Simulation::grab(std::int64_t particle, const Vec3& target, double stiffness) {
@@ -289,6 +327,23 @@ Checkpoint Simulation::save() const {
   return checkpoint;
 }
 
+// Numbers are finite, sizes fit, and grabs are such as grab() makes.
+bool Simulation::is_restorable(const Checkpoint& checkpoint) const {
+  const State& state = checkpoint.state;
+  if (!is_publishable(state) || !std::isfinite(state.time) || !std::isfinite(checkpoint.base_time)) return false;
+  const Eigen::Index history = checkpoint.history.size();
+  if ((history != 0 && history != 1 + 2 * state.positions.size()) || !checkpoint.history.allFinite()) return false;
+  std::vector<std::int32_t> seen;
+  return std::all_of(checkpoint.grabs.begin(), checkpoint.grabs.end(), [&](const Grab& grab) {
+    if (grab.particle < 0 || grab.particle >= model_->particle_count() || !grab.target.allFinite()) return false;
+    if (Vec3(block3(system_->free(), grab.particle)) != Vec3::Ones()) return false;
+    if (!ranges::positive.contains(grab.stiffness)) return false;
+    const bool first = std::find(seen.begin(), seen.end(), grab.particle) == seen.end();
+    seen.push_back(grab.particle);
+    return first;
+  });
+}
+
 Result<void> Simulation::restore(const Checkpoint& checkpoint) {
   const std::int64_t size = model_->rest_positions.size();
   if (checkpoint.fingerprint != fingerprint_ || checkpoint.state.positions.size() != size ||
@@ -297,7 +352,13 @@ Result<void> Simulation::restore(const Checkpoint& checkpoint) {
   }
   const auto converted = convert_values(checkpoint.values);
   if (!converted) return Error{"the checkpoint does not fit: " + converted.error().message};
-  if (auto applied = apply_values(converted.value()); !applied) return applied;
+  if (!is_restorable(checkpoint)) return Error{"the checkpoint has a state or a grab that no simulation can have"};
+  const std::vector<ParameterAssignment> before = values_of(converted.value());
+  assign(converted.value());
+  if (auto checked = check_model(*model_); !checked) {
+    assign(before);
+    return checked;
+  }
   failure_.reset();
   statistics_ = {};
   state_ = checkpoint.state;
@@ -330,7 +391,8 @@ StepReport Simulation::calc_report() const {
   }
   report.statistics = statistics_;
   const double limit = calc_stable_step();
-  if (std::isfinite(limit)) report.stability_margin = limit * settings_.time.substeps / settings_.time.step;
+  const double margin = limit * settings_.time.substeps / settings_.time.step;
+  if (std::isfinite(margin)) report.stability_margin = margin;
   for (const Body& body : model_->bodies) {
     const ElementHealth health = calc_element_health(*model_, body, state_.positions);
     report.inverted += health.inverted;
@@ -383,25 +445,21 @@ std::uint64_t Simulation::calc_state_hash() const {
   return flexcast::calc_state_hash(state_);
 }
 
-const std::vector<ModeBound>& Simulation::modes() const {
-  if (modes_.empty() || state_.step - modes_step_ >= modes_last_for || state_.step < modes_step_) {
-    modes_ = calc_largest_modes(*system_, *model_, state_.positions);
-    modes_step_ = state_.step;
-  }
-  return modes_;
-}
-
 double Simulation::calc_stable_step() const {
   const IntegratorRow& row = *find_integrator(settings_.time.integrator);
   if (row.implicit) return std::numeric_limits<double>::infinity();
+  const std::int64_t age = state_.step - stable_step_from_;
+  if (stable_step_ && age >= 0 && age < stable_step_lasts) return *stable_step_;
   double limit = std::numeric_limits<double>::infinity();
-  for (const ModeBound& bound : modes()) {
+  for (const ModeBound& bound : calc_largest_modes(*system_, *model_, state_.positions)) {
     const double omega = std::sqrt(bound.omega_squared);
     if (omega == 0.0 && bound.damping_rate == 0.0) continue;
     // Damping shortens the step of some schemes and lengthens that of others.
     limit = std::min({limit, row.calc_stable_step(omega, bound.damping_rate),
                       row.calc_stable_step(omega, bound.least_damping_rate)});
   }
+  stable_step_ = limit;
+  stable_step_from_ = state_.step;
   return limit;
 }
 

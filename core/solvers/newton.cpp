@@ -1,6 +1,7 @@
 #include "core/solvers/newton.h"
 
 #include <cmath>
+#include <limits>
 
 namespace flexcast {
 
@@ -52,11 +53,16 @@ double NewtonSolver::search_line(MinimizationProblem& problem, VecX& u, double& 
 
 NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u) {
   NewtonResult result;
-  double terms = problem.calc_gradient(u, gradient_);
+  double terms = problem.calc_gradient(u, gradient_), last = std::numeric_limits<double>::infinity();
+  int idle = 0;
   while (true) {
     const double norm = gradient_.norm();
     result.residual = terms > 0.0 ? norm / terms : 0.0;
-    result.converged = norm <= settings_.newton_tolerance * terms;
+    // Newton's steps shorten the gradient a lot until rounding is all that is left of it.
+    const double noise = problem.calc_noise();
+    idle = norm <= noise && norm > 0.5 * last ? idle + 1 : 0;
+    result.converged = norm <= settings_.newton_tolerance * terms + 1e-3 * noise || idle == 2;
+    last = norm;
     if (result.converged) return result;
     if (result.iterations >= settings_.newton_iterations) {
       result.converged = settings_.newton_iterations == 1 && linear_converged_ && std::isfinite(result.residual);
@@ -69,6 +75,10 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
       terms = problem.calc_gradient(u, gradient_);
     } else {
       const double length = search_line(problem, u, terms);
+      if (length == 0.0 && norm <= noise) {
+        result.converged = true;
+        return result;
+      }
       const bool go_on = problem.adapt(length);
       if (length == 0.0 && !go_on) return result;
     }

@@ -16,6 +16,8 @@ class MinimizationProblem {
   virtual Value calc_value(const VecX& u) = 0;
   // Returns the summed norms of the gradient's terms: what its own norm is compared with. Zero at held entries.
   virtual double calc_gradient(const VecX& u, VecX& gradient) = 0;
+  // The norm that rounding alone gives a gradient: where none smaller can be found, one below it is as good as zero.
+  virtual double calc_noise() const { return 0.0; }
   // Exact, or a positive definite neighbour of it.
   virtual void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) = 0;
   // Told after each line search how much of the direction was taken, 0: none. A problem that shifts its Hessians adapts

@@ -55,14 +55,31 @@ struct StepCommand {
 struct RunUntilCommand {
   double time = 0.0;  // s
 };
+struct LoadCommand {
+  std::string name;  // of a scene in the server's folder
+};
+struct SaveCommand {
+  std::string name;  // of a checkpoint
+};
+struct RestoreCommand {
+  std::string name;  // of a checkpoint
+};
+struct GrabCommand {
+  std::int64_t particle = 0;   // of the world
+  Vec3 target = Vec3::Zero();  // m
+  double stiffness = 0.0;      // N/m; 0: chosen by the engine
+};
+struct ReleaseCommand {
+  std::int64_t particle = 0;  // of the world
+};
 struct StatusCommand {};
-struct UnsupportedCommand {};  // known to the contract, not to this server
-struct MalformedCommand {      // answered `rejected`, in its turn, so that the reply says where the world stands
+struct MalformedCommand {  // answered `rejected`, in its turn, so that the reply says where the world stands
   std::string reason;
 };
 
 using CommandBody = std::variant<SetCommand, GetCommand, DescribeCommand, ResetCommand, PauseCommand, ResumeCommand,
-                                 StepCommand, RunUntilCommand, StatusCommand, UnsupportedCommand, MalformedCommand>;
+                                 StepCommand, RunUntilCommand, LoadCommand, SaveCommand, RestoreCommand, GrabCommand,
+                                 ReleaseCommand, StatusCommand, MalformedCommand>;
 
 // Whose request: replies go back under it, a repeated one is recognised by it.
 struct RequestKey {

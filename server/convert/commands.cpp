@@ -47,11 +47,16 @@ CommandBody body_from_wire(const flexcast_Command& message) {
     case flexcast_COMMAND_STATUS:
       return StatusCommand{};
     case flexcast_COMMAND_LOAD:
+      return LoadCommand{std::string(wire::text(message.name))};
     case flexcast_COMMAND_SAVE:
+      return SaveCommand{std::string(wire::text(message.name))};
     case flexcast_COMMAND_RESTORE:
+      return RestoreCommand{std::string(wire::text(message.name))};
     case flexcast_COMMAND_GRAB:
+      return GrabCommand{message.particle, Vec3(message.target[0], message.target[1], message.target[2]),
+                         message.stiffness};
     case flexcast_COMMAND_RELEASE:
-      return UnsupportedCommand{};
+      return ReleaseCommand{message.particle};
   }
   return MalformedCommand{"this kind of command is not known"};
 }

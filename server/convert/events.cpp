@@ -1,5 +1,7 @@
 #include "server/convert/events.h"
 
+#include <algorithm>
+
 #include "idl/wire/fill.h"
 #include "server/convert/enums.h"
 #include "server/convert/parameters.h"
@@ -21,6 +23,10 @@ wire::Owned<flexcast_Event> to_wire(const Event& event, std::string_view world) 
   message->command_kind = to_wire(event.command);
   to_wire(std::span<const ParameterAssignment>(event.values), message->values);
   message->keep_parameters = event.keep_parameters;
+  wire::set_string(message->name, event.name);
+  message->particle = static_cast<std::uint32_t>(event.particle);
+  std::copy_n(event.target.data(), 3, message->target);
+  message->stiffness = event.stiffness;
   wire::set_string(message->text, event.text);
   return message;
 }

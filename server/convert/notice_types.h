@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/scene/scene.h"
 #include "core/sim/parameters.h"
 #include "core/sim/settings.h"
 #include "server/convert/command_types.h"
@@ -18,6 +20,9 @@ struct RunStarted {
   std::uint64_t topology_revision = 1;
   double time_step = 0.0;  // s, at the start of the run
   StreamSettings stream;
+  // Shared with the world, which may have loaded another scene by the time this one is published. Read while the world
+  // runs: only what no parameter changes (names, ranges, rest positions, connections).
+  std::shared_ptr<const Scene> scene;
 };
 
 struct ParametersChanged {
@@ -42,7 +47,11 @@ struct Event {
   CommandKind command = CommandKind::status;  // EventKind::command only
   std::vector<ParameterAssignment> values;    // set: what was set; reset that keeps parameters: what was kept
   bool keep_parameters = false;
-  std::string text;  // for people
+  std::string name;            // load: of the scene; save, restore: of the checkpoint
+  std::int64_t particle = 0;   // grab, release
+  Vec3 target = Vec3::Zero();  // grab: m
+  double stiffness = 0.0;      // grab: N/m, as it is in force
+  std::string text;            // for people
 };
 
 using Notice = std::variant<RunStarted, ParametersChanged, Event>;

@@ -10,7 +10,7 @@ namespace {
 
 void fill_body(const Body& body, flexcast_BodyInfo& message) {
   wire::set_string(message.name, body.name);
-  wire::set_string(message.model, body.is_fem() ? "fem" : "mass_spring");
+  wire::set_string(message.model, body.tetrahedra.count > 0 ? "fem" : "mass_spring");  // the law may be changing
   message.first_particle = static_cast<std::uint32_t>(body.particles.first);
   message.particles = static_cast<std::uint32_t>(body.particles.count);
   message.tetrahedra = static_cast<std::uint32_t>(body.tetrahedra.count);
@@ -29,55 +29,58 @@ void view_elements(const std::vector<std::array<std::int32_t, N>>& elements, Ind
 
 }  // namespace
 
-wire::Owned<flexcast_SceneInfo> make_scene_info(const SceneFacts& facts, const RunStarted& run) {
+wire::Owned<flexcast_SceneInfo> make_scene_info(const RunStarted& run, std::string_view world) {
+  const Scene& scene = *run.scene;
+  const Model& model = scene.simulation->model();
   wire::Owned<flexcast_SceneInfo> message;
-  wire::set_string(message->world, facts.world);
+  wire::set_string(message->world, world);
   message->run_id = run.run_id;
   message->topology_revision = run.topology_revision;
-  wire::set_string(message->name, facts.name);
-  wire::set_string(message->description, facts.description);
+  wire::set_string(message->name, scene.name);
+  wire::set_string(message->description, scene.description);
   wire::set_string(message->version, FLEXCAST_VERSION);
-  message->particles = static_cast<std::uint32_t>(facts.model->particle_count());
+  message->particles = static_cast<std::uint32_t>(model.particle_count());
   message->time_step = run.time_step;
   message->publish_every = static_cast<std::uint32_t>(run.stream.every);
   wire::set_string(message->precision, run.stream.precision);
   wire::set_strings(message->fields, run.stream.fields);
-  const auto bodies = wire::resize(message->bodies, facts.model->bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) fill_body(facts.model->bodies[i], bodies[i]);
-  const auto probes = wire::resize(message->probes, facts.probes.size());
+  const auto bodies = wire::resize(message->bodies, model.bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) fill_body(model.bodies[i], bodies[i]);
+  const auto& watched = scene.simulation->probes();
+  const auto probes = wire::resize(message->probes, watched.size());
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    wire::set_string(probes[i].name, facts.probes[i].name);
-    wire::set_string(probes[i].body, facts.probes[i].body);
-    probes[i].particle = static_cast<std::uint32_t>(facts.probes[i].particle);
+    wire::set_string(probes[i].name, watched[i].name);
+    wire::set_string(probes[i].body, watched[i].body);
+    probes[i].particle = static_cast<std::uint32_t>(watched[i].particle);
   }
-  wire::set_string(message->scene_text, facts.text);
-  wire::set_strings(message->overrides, facts.overrides);
-  const auto files = wire::resize(message->files, facts.files.size());
+  wire::set_string(message->scene_text, scene.text);
+  wire::set_strings(message->overrides, scene.overrides);
+  const auto files = wire::resize(message->files, scene.files.size());
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& content = facts.files[i].content;
-    wire::set_string(files[i].name, facts.files[i].name);
+    const auto& content = scene.files[i].content;
+    wire::set_string(files[i].name, scene.files[i].name);
     wire::copy(files[i].content,
                std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()));
   }
   return message;
 }
 
-std::uint32_t count_topology_chunks(const SceneFacts& facts, std::size_t body) {
-  const Body& b = facts.model->bodies[body];
-  const auto bytes = static_cast<std::size_t>(b.particles.count) * 3 * sizeof(double) +
-                     (static_cast<std::size_t>(b.tetrahedra.count) * 4 + static_cast<std::size_t>(b.springs.count) * 2 +
-                      static_cast<std::size_t>(b.triangles.count) * 3) *
-                         sizeof(std::uint32_t);
+std::uint32_t count_topology_chunks(const Body& body) {
+  const auto bytes =
+      static_cast<std::size_t>(body.particles.count) * 3 * sizeof(double) +
+      (static_cast<std::size_t>(body.tetrahedra.count) * 4 + static_cast<std::size_t>(body.springs.count) * 2 +
+       static_cast<std::size_t>(body.triangles.count) * 3) *
+          sizeof(std::uint32_t);
   return count_chunks(bytes, 1);
 }
 
-wire::Owned<flexcast_Topology> make_topology(const SceneFacts& facts, const RunStarted& run, std::size_t body,
+wire::Owned<flexcast_Topology> make_topology(const RunStarted& run, std::string_view world, std::size_t body,
                                              std::uint32_t chunk) {
-  const Model& model = *facts.model;
+  const Model& model = run.scene->simulation->model();
   const Body& b = model.bodies[body];
-  const std::uint32_t chunks = count_topology_chunks(facts, body);
+  const std::uint32_t chunks = count_topology_chunks(b);
   wire::Owned<flexcast_Topology> message;
-  wire::set_string(message->world, facts.world);
+  wire::set_string(message->world, world);
   message->run_id = run.run_id;
   message->topology_revision = run.topology_revision;
   message->body = static_cast<std::uint32_t>(body);

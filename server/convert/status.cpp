@@ -86,6 +86,12 @@ wire::Owned<flexcast_Status> to_wire(const WorldStatus& status, const DeliverySt
     set_vector(probes[i].position, status.probes[i].position);
     set_vector(probes[i].velocity, status.probes[i].velocity);
   }
+  const auto handles = wire::resize(message->handles, status.handles.size());
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    wire::set_string(handles[i].name, status.handles[i].name);
+    set_vector(handles[i].force, status.handles[i].force);
+    set_vector(handles[i].torque, status.handles[i].torque);
+  }
   wire::set_strings(message->warnings, status.warnings);
   return message;
 }

@@ -25,6 +25,7 @@ struct WorldStatus {
   std::uint64_t topology_revision = 1;
   std::optional<Failure> failure;
   std::vector<ProbeStatus> probes;
+  std::vector<HandleReport> handles;
   std::vector<std::string> warnings;
 
   // Measured by the simulation thread.

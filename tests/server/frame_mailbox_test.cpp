@@ -109,6 +109,26 @@ TEST(FrameMailbox, AReaderThatKeepsUpTouchesTwoFramesOnly) {
   EXPECT_EQ(memories.size(), 2u);
 }
 
+TEST(FrameMailbox, FramesOfAnotherSceneFollowThoseThatWaitAndTheTakenOneStays) {
+  FrameMailbox mailbox(particles, {.frames = 4});
+  ASSERT_TRUE(mailbox.push(make_header(0), make_state(7)));
+  ASSERT_TRUE(mailbox.push(make_header(1), make_state(8)));
+  const Frame* taken = mailbox.take();
+  mailbox.begin_scene(2 * particles);
+  State state;
+  state.positions = VecX::Constant(6 * particles, 9.0);
+  state.velocities = state.positions;
+  ASSERT_TRUE(mailbox.push(make_header(2), state));
+  EXPECT_EQ(mailbox.waiting(), 2u);
+  EXPECT_EQ(taken->positions, make_state(7).positions);
+  EXPECT_EQ(mailbox.take()->positions, make_state(8).positions);
+  taken = mailbox.take();
+  EXPECT_EQ(taken->header.frame, 2u);
+  EXPECT_EQ(taken->positions, state.positions);
+  EXPECT_EQ(mailbox.take(), nullptr);
+  EXPECT_EQ(mailbox.capacity(), 4u);
+}
+
 TEST(FrameMailbox, NoticesAreNeverRefusedAndOfStatusesTheNewestCounts) {
   FrameMailbox mailbox(particles, {.frames = 4});
   for (std::uint64_t i = 0; i < 1000; ++i) {

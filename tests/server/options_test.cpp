@@ -18,20 +18,22 @@ TEST(ServerOptions, DefaultsAreDomain0RealtimeAndTheScenesName) {
   EXPECT_EQ(options.world, "");
   EXPECT_EQ(options.domain, 0);
   EXPECT_EQ(options.rate, 1.0);
+  EXPECT_EQ(options.checkpoints, "checkpoints");
   EXPECT_FALSE(options.paused);
   EXPECT_FALSE(options.until.has_value());
 }
 
 TEST(ServerOptions, EveryOptionIsUnderstood) {
-  const auto options =
-      std::get<Options>(parse({"rope.toml", "--world", "w_1-a", "--domain", "7", "--profile", "lan", "--rate", "2.5",
-                               "--paused", "--until", "1e1", "--exit", "--set", "a.b=1", "--set", "gravity=[0,0,-3]"}));
+  const auto options = std::get<Options>(
+      parse({"rope.toml", "--world", "w_1-a", "--domain", "7", "--profile", "lan", "--rate", "2.5", "--paused",
+             "--until", "1e1", "--exit", "--checkpoints", "/tmp/c", "--set", "a.b=1", "--set", "gravity=[0,0,-3]"}));
   EXPECT_EQ(options.world, "w_1-a");
   EXPECT_EQ(options.domain, 7);
   EXPECT_EQ(options.profile, "lan");
   EXPECT_EQ(options.rate, 2.5);
   EXPECT_TRUE(options.paused);
   EXPECT_EQ(options.until, 10.0);
+  EXPECT_EQ(options.checkpoints, "/tmp/c");
   EXPECT_TRUE(options.exit);
   EXPECT_EQ(options.overrides, (std::vector<std::string>{"a.b=1", "gravity=[0,0,-3]"}));
 }

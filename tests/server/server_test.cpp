@@ -17,9 +17,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// The scenes of the servers below: "rope", "pair" with two bodies, and "long" with frames above 4 MiB.
 std::filesystem::path write_scene() {
-  const auto path = std::filesystem::temp_directory_path() / ("flexcast_rope_" + std::to_string(getpid()) + ".toml");
+  static const test::Folder folder;
+  const auto path = folder.path() / "rope.toml";
   std::ofstream(path) << test::rope_scene();
+  std::ofstream(folder.path() / "pair.toml") << test::rope_scene(R"([[body]]
+name = "other"
+model = "mass_spring"
+mesh = { shape = "rope", cells = [20], size = [1.0] }
+springs = { stiffness = 1.0 }
+mass = 0.01
+)");
+  std::string longest =
+      test::rope_scene("[stream]\nfields = [\"positions\", \"velocities\"]\nprecision = \"float64\"\n");
+  longest.replace(longest.find("cells = [10]"), 12, "cells = [90000]");
+  std::ofstream(folder.path() / "long.toml") << longest;
   return path;
 }
 
@@ -198,6 +211,49 @@ TEST(Server, LateReadersFindSceneTopologyParametersAndAllEvents) {
   EXPECT_EQ(wait_for_run(topologies, run_id)->rest_positions._length, 33u);
   EXPECT_GT(wait_for_run(parameters, run_id)->descriptors._length, 5u);
   EXPECT_EQ(client.count_events_until(flexcast_COMMAND_RESET, flexcast_COMMAND_RESET), 1u);
+}
+
+TEST(Server, ALoadedSceneIsPublishedAnewAndLateReadersSeeNothingOfTheOldOne) {
+  const auto server = start_paused_server();
+  Client client;
+  const auto load = [&](const char* name) {
+    auto command = Client::make(flexcast_COMMAND_LOAD);
+    wire::set_string(command->name, name);
+    return client.ask(command);
+  };
+  EXPECT_EQ(load("nothing")->outcome, flexcast_OUTCOME_REJECTED);
+  EXPECT_EQ(load("../pair")->outcome, flexcast_OUTCOME_REJECTED);
+  const auto pair = load("pair");
+  ASSERT_EQ(pair->outcome, flexcast_OUTCOME_APPLIED) << wire::text(pair->reason);
+  auto scenes = wire::Reader<flexcast_SceneInfo>::create(client.participant()).value();
+  auto frames = wire::Reader<flexcast_ParticleFrame>::create(client.participant()).value();
+  const auto scene = wait_for_run(scenes, pair->run_id);
+  EXPECT_EQ(scene->particles, 11u + 21u);
+  EXPECT_EQ(scene->bodies._length, 2u);
+  EXPECT_EQ(scene->topology_revision, 2u);
+  const auto frame = wait_for_run(frames, pair->run_id);
+  EXPECT_EQ(frame->topology_revision, 2u);
+  EXPECT_EQ(frame->total, 32u);
+
+  const auto rope = load("rope");
+  ASSERT_EQ(rope->outcome, flexcast_OUTCOME_APPLIED);
+  EXPECT_EQ(wait_for_run(scenes, rope->run_id)->particles, 11u);
+  EXPECT_EQ(wait_for_run(frames, rope->run_id)->topology_revision, 3u);
+  auto topologies = wire::Reader<flexcast_Topology>::create(client.participant()).value();
+  EXPECT_EQ(wait_for_run(topologies, rope->run_id)->body, 0u);
+  std::this_thread::sleep_for(100ms);  // what else there may be
+  auto others = topologies.take();
+  for (auto [topology, info] : others.value()) EXPECT_FALSE(info.valid) << "body " << topology.body;
+}
+
+TEST(Server, ASceneWithFramesTooLargeForItsStreamIsNotLoaded) {
+  const auto server = start_paused_server();
+  Client client;
+  auto command = Client::make(flexcast_COMMAND_LOAD);
+  wire::set_string(command->name, "long");
+  const auto reply = client.ask(command);
+  EXPECT_EQ(reply->outcome, flexcast_OUTCOME_REJECTED);
+  EXPECT_NE(wire::text(reply->reason).find("too large"), std::string::npos) << wire::text(reply->reason);
 }
 
 TEST(Server, ASecondServerWithTheSameWorldIsRefused) {

@@ -12,9 +12,8 @@ using namespace test;
 // The thread's loop with both ends in the test's hands; turned by hand, or for real after start().
 struct Bench {
   explicit Bench(WorldOptions options = {.rate = 0.0}, const FrameLimits& limits = {.frames = 8})
-      : simulation(flexcast::test::make(rope_scene())),
-        world(*simulation, options, run_ids),
-        mailbox(simulation->model().particle_count(), limits),
+      : world(load(rope_scene()), options, run_ids),
+        mailbox(world.simulation().model().particle_count(), limits),
         thread(world, commands, replies, mailbox) {}
 
   void turn(int times) {
@@ -44,7 +43,6 @@ struct Bench {
   }
 
   RunIds run_ids;
-  std::unique_ptr<Simulation> simulation;
   World world;
   Queue<Command> commands;
   Queue<Reply> replies;
@@ -61,7 +59,7 @@ TEST(SimulationThread, HandsOnTheInitialStateAndEveryStep) {
 TEST(SimulationThread, AFullMailboxSkipsFramesCountsThemAndNeverWaits) {
   Bench bench({.rate = 0.0}, {.frames = 4});
   bench.turn(10);  // frames 0 to 10
-  EXPECT_EQ(bench.simulation->state().step, 10);
+  EXPECT_EQ(bench.world.simulation().state().step, 10);
   EXPECT_EQ(bench.take_frame_numbers(), (std::vector<std::uint64_t>{0, 1, 2, 3}));
   bench.commands.push(pause());
   const WorldStatus status = bench.ask_status();
@@ -83,7 +81,7 @@ TEST(SimulationThread, CommandsActBetweenTwoStepsInTheOrderTheyCame) {
   EXPECT_EQ(replies[0].key.request_id, first.key.request_id);
   EXPECT_EQ(replies[0].applied_step, 5);
   EXPECT_EQ(replies[1].applied_step, 5);
-  EXPECT_EQ(bench.simulation->state().step, 5);
+  EXPECT_EQ(bench.world.simulation().state().step, 5);
 }
 
 TEST(SimulationThread, TheReplyToAStepFollowsItsFrame) {
@@ -102,16 +100,16 @@ TEST(SimulationThread, TheHeartbeatBeatsAlsoWhileTheWorldStands) {
   const auto before = bench.mailbox.heartbeat();
   bench.turn(3);
   EXPECT_EQ(bench.mailbox.heartbeat(), before + 3);
-  EXPECT_EQ(bench.simulation->state().step, 0);
+  EXPECT_EQ(bench.world.simulation().state().step, 0);
 }
 
 TEST(SimulationThread, APacedWorldWaitsForItsTime) {
   Bench bench({.rate = 1.0});
   const Clock::time_point now = Clock::now();
   EXPECT_GT(bench.thread.turn(now), Clock::duration::zero());
-  EXPECT_EQ(bench.simulation->state().step, 0);
+  EXPECT_EQ(bench.world.simulation().state().step, 0);
   bench.thread.turn(now + from_seconds(rope_step) + std::chrono::microseconds(1));
-  EXPECT_EQ(bench.simulation->state().step, 1);
+  EXPECT_EQ(bench.world.simulation().state().step, 1);
 }
 
 TEST(SimulationThread, EachResetCountsSkippedFramesAnew) {
@@ -122,6 +120,66 @@ TEST(SimulationThread, EachResetCountsSkippedFramesAnew) {
   bench.commands.push(reset());
   EXPECT_EQ(bench.ask_status().frames_skipped, 0u);
   EXPECT_EQ(bench.take_frame_numbers().back(), 0u);
+}
+
+TEST(SimulationThread, APacedWorldGoesOnAtItsPaceAfterARestoreInEitherDirection) {
+  const Folder folder;
+  Bench bench({.rate = 1.0, .checkpoints = folder.path()});
+  Clock::time_point now = Clock::now();
+  const auto run_seconds = [&](double simulated) {
+    const auto end = now + from_seconds(simulated);
+    while (now < end) {
+      const auto wait = bench.thread.turn(now);
+      now += std::clamp<Clock::duration>(wait, std::chrono::microseconds(1), std::chrono::milliseconds(1));
+    }
+  };
+  bench.commands.push(save("early"));
+  run_seconds(1.0);
+  bench.commands.push(save("late"));
+  bench.commands.push(restore("early"));
+  run_seconds(0.1);
+  EXPECT_NEAR(static_cast<double>(bench.world.simulation_state().step), 100.0, 5.0);
+  bench.commands.push(restore("late"));
+  run_seconds(0.1);
+  EXPECT_NEAR(static_cast<double>(bench.world.simulation_state().step), 1100.0, 10.0);
+}
+
+TEST(SimulationThread, ARestoredStateIsHandedOnAsTheNextFrame) {
+  const Folder folder;
+  Bench bench({.rate = 0.0, .checkpoints = folder.path()}, {.frames = 4});
+  bench.commands.push(save("start"));
+  bench.turn(10);  // the mailbox is full: the newest frame waits for room
+  EXPECT_EQ(bench.take_frame_numbers(), (std::vector<std::uint64_t>{0, 1, 2, 3}));
+  bench.commands.push(pause());
+  bench.commands.push(restore("start"));
+  bench.turn(1);
+  const Frame* frame = bench.mailbox.take();
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->header.frame, 10u);
+  frame = bench.mailbox.take();
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->header.frame, 11u);
+  EXPECT_EQ(frame->header.step, 0);
+  EXPECT_EQ(frame->positions, bench.world.simulation_state().positions);
+}
+
+TEST(SimulationThread, AfterALoadFramesHaveTheNewScenesParticles) {
+  WorldOptions options{.rate = 0.0};
+  options.load_scene = [](const std::string&) {
+    std::string text = rope_scene();
+    return load_scene_text(text.replace(text.find("cells = [10]"), 12, "cells = [30]"));
+  };
+  Bench bench(options);
+  bench.turn(2);
+  bench.commands.push(load_scene("other"));
+  bench.turn(2);
+  std::vector<std::pair<std::uint64_t, Eigen::Index>> frames;  // number, coordinates
+  while (const Frame* frame = bench.mailbox.take()) {
+    frames.emplace_back(frame->header.frame, frame->positions.size());
+    EXPECT_EQ(frame->header.topology_revision, frame->positions.size() == 33 ? 1u : 2u);
+  }
+  EXPECT_EQ(frames, (std::vector<std::pair<std::uint64_t, Eigen::Index>>{
+                        {0, 33}, {1, 33}, {2, 33}, {0, 93}, {1, 93}, {2, 93}}));
 }
 
 TEST(SimulationThread, EveryStateChangeGivesAStatus) {

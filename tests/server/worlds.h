@@ -1,7 +1,10 @@
 // A small world and the commands to drive it, without threads and network.
 #pragma once
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,6 +36,32 @@ node = 10
 )" + more;
 }
 
+inline Scene load(const std::string& text) {
+  auto scene = load_scene_text(text);
+  if (!scene) throw std::runtime_error(scene.error().message);
+  return std::move(scene).value();
+}
+
+// A folder that goes with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string path = std::filesystem::temp_directory_path() / "flexcast-server-XXXXXX";
+    if (mkdtemp(path.data()) == nullptr) throw std::runtime_error("cannot make " + path);
+    path_ = path;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 inline Command make_command(CommandKind kind, CommandBody body) {
   static std::uint64_t request_id = 0;
   Command command;
@@ -61,6 +90,22 @@ inline Command reset(bool keep_parameters = false) {
   return make_command(CommandKind::reset, ResetCommand{keep_parameters});
 }
 
+inline Command load_scene(const std::string& name) {
+  return make_command(CommandKind::load, LoadCommand{name});
+}
+inline Command save(const std::string& name) {
+  return make_command(CommandKind::save, SaveCommand{name});
+}
+inline Command restore(const std::string& name) {
+  return make_command(CommandKind::restore, RestoreCommand{name});
+}
+inline Command grab(std::int64_t particle, const Vec3& target, double stiffness = 0.0) {
+  return make_command(CommandKind::grab, GrabCommand{particle, target, stiffness});
+}
+inline Command release(std::int64_t particle) {
+  return make_command(CommandKind::release, ReleaseCommand{particle});
+}
+
 // A spring stiffness that makes the rope's explicit step blow up within a few steps.
 inline Command set_explosive() {
   return set({{"rope.stiffness", 1e12}});
@@ -69,14 +114,14 @@ inline Command set_explosive() {
 class TestWorld {
  public:
   explicit TestWorld(const WorldOptions& options = {}, const std::string& more_scene = {})
-      : simulation_(flexcast::test::make(rope_scene(more_scene))), world_(*simulation_, options, run_ids_) {
+      : world_(load(rope_scene(more_scene)), options, run_ids_) {
     collect();
   }
 
   World& operator*() { return world_; }
   World* operator->() { return &world_; }
-  Simulation& simulation() { return *simulation_; }
-  std::int64_t step_now() const { return simulation_->state().step; }
+  const Simulation& simulation() const { return world_.simulation(); }
+  std::int64_t step_now() const { return simulation().state().step; }
 
   void apply(const Command& command) {
     world_.apply(command, Clock::now());
@@ -122,7 +167,7 @@ class TestWorld {
   const std::vector<FrameHeader>& frames() const { return frames_; }
 
   double parameter(const std::string& name) const {
-    return std::get<double>(simulation_->parameter(*simulation_->find_parameter(name)));
+    return std::get<double>(simulation().parameter(*simulation().find_parameter(name)));
   }
 
  private:
@@ -136,7 +181,6 @@ class TestWorld {
   }
 
   RunIds run_ids_;
-  std::unique_ptr<Simulation> simulation_;
   World world_;
   std::vector<Reply> replies_;
   std::vector<Notice> notices_;

@@ -135,6 +135,18 @@ class FakeServer {
       case flexcast_COMMAND_RUN_UNTIL:
         step_ = static_cast<std::uint64_t>(command.time * 1000);
         return;
+      case flexcast_COMMAND_SAVE:
+        saved_[std::string(wire::text(command.name))] = step_;
+        return;
+      case flexcast_COMMAND_RESTORE:
+        return restore(std::string(wire::text(command.name)), reply);
+      case flexcast_COMMAND_GRAB:
+        grabbed_[command.particle] =
+            client::to_text(client::Vector{command.target[0], command.target[1], command.target[2]}) + " m, " +
+            client::to_text(command.stiffness) + " N/m";
+        return;
+      case flexcast_COMMAND_RELEASE:
+        return release(command.particle, reply);
       case flexcast_COMMAND_STATUS:
         return;
       default:
@@ -143,16 +155,32 @@ class FakeServer {
     }
   }
 
+  static void reject(flexcast_Reply& reply, const std::string& reason) {
+    reply.outcome = flexcast_OUTCOME_REJECTED;
+    wire::set_string(reply.reason, reason);
+  }
+
+  void restore(const std::string& name, flexcast_Reply& reply) {
+    const auto saved = saved_.find(name);
+    if (saved == saved_.end()) return reject(reply, "there is no checkpoint '" + name + "'");
+    step_ = saved->second;
+  }
+
+  // Tells in the reply's values what was pulled where.
+  void release(std::uint32_t particle, flexcast_Reply& reply) {
+    const auto grabbed = grabbed_.extract(particle);
+    if (grabbed.empty()) return reject(reply, "particle " + std::to_string(particle) + " is not grabbed");
+    put({{"released", grabbed.mapped()}}, reply);
+  }
+
   void set(const flexcast_Command& command, flexcast_Reply& reply) {
     std::vector<Parameter> changed;
     for (const auto& value : wire::elements(command.values)) {
       changed.push_back(client::from_wire(value));
       const auto known = values_.find(changed.back().name);
       if (known == values_.end() || known->second.index() != changed.back().value.index()) {
-        reply.outcome = flexcast_OUTCOME_REJECTED;
-        wire::set_string(reply.reason,
-                         "no parameter takes " + changed.back().name + " = " + client::to_text(changed.back().value));
-        return;
+        return reject(reply,
+                      "no parameter takes " + changed.back().name + " = " + client::to_text(changed.back().value));
       }
     }
     for (const auto& parameter : changed) values_[parameter.name] = parameter.value;
@@ -207,6 +235,8 @@ class FakeServer {
                                                {"gravity", client::Vector{0, 0, -9.81}},
                                                {"solver.linear", std::string("auto")},
                                                {"time.substeps", std::int64_t{1}}};
+  std::map<std::string, std::uint64_t> saved_;    // steps
+  std::map<std::uint32_t, std::string> grabbed_;  // "[x, y, z] m, k N/m"
   std::map<std::pair<std::string, std::uint64_t>, wire::Owned<flexcast_Reply>> replies_sent_;
   std::jthread thread_;  // last: everything else is there while it runs
 };

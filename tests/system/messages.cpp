@@ -168,7 +168,7 @@ EventMessage decode_event(Bytes message) {
   event.command_kind = cdr.enumerator<flexcast_CommandKind>();
   event.values = read_values(cdr);
   event.keep_parameters = cdr.boolean();
-  cdr.string();      // name
+  event.name = cdr.string();
   cdr.u32();         // particle
   cdr.doubles<4>();  // target, stiffness
   event.text = cdr.string();

@@ -94,7 +94,7 @@ struct EventMessage {
   flexcast_CommandKind command_kind;
   std::vector<ParameterMessage> values;
   bool keep_parameters;
-  std::string text;
+  std::string name, text;
 };
 
 struct CommandMessage {

@@ -126,6 +126,18 @@ TEST_F(Commands, SetTextTakesTheKindsFromTheServer) {
   EXPECT_EQ(now.value().find("nothing"), nullptr);
 }
 
+TEST_F(Commands, SaveRestoreGrabAndReleaseCarryTheirArguments) {
+  ASSERT_TRUE(connection.step(3).ok());
+  EXPECT_TRUE(connection.save("start").value().applied());
+  ASSERT_TRUE(connection.step(4).ok());
+  EXPECT_EQ(connection.restore("start").value().applied_step, 3u);
+  EXPECT_EQ(connection.restore("end").value().outcome, flexcast_OUTCOME_REJECTED);
+  EXPECT_EQ(connection.load("other").value().kind, flexcast_COMMAND_LOAD);
+  EXPECT_TRUE(connection.grab(7, {1, -2, 0.5}, 40).value().applied());
+  EXPECT_EQ(*connection.release(7).value().find("released"), Value(std::string("[1, -2, 0.5] m, 40 N/m")));
+  EXPECT_FALSE(connection.release(7).value().applied());
+}
+
 TEST_F(Commands, ThatTheServerRefusesAreRepliesWithAReason) {
   const auto reply = connection.set({{"no.such", 1.0}});
   ASSERT_TRUE(reply.ok());

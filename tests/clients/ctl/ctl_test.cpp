@@ -94,12 +94,37 @@ TEST_F(Ctl, SteersTheCourseOfTime) {
   EXPECT_EQ(ctl({"resume", "--json"}).json()["state"], "running");
 }
 
+TEST_F(Ctl, SavesAndRestoresByName) {
+  ctl({"pause"});
+  ctl({"step", "5"});
+  EXPECT_EQ(ctl({"save", "start"}).out, "applied at step 5 (0 s): paused\n");
+  ctl({"step", "3"});
+  const auto restored = ctl({"restore", "start", "--json"});
+  EXPECT_EQ(restored.exit_code, 0) << restored.err;
+  EXPECT_EQ(restored.json()["command"], "restore");
+  EXPECT_EQ(restored.json()["applied_step"], 5);
+  const auto missing = ctl({"restore", "end"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_EQ(missing.err, "flexcast-ctl: rejected: there is no checkpoint 'end'\n");
+}
+
+TEST_F(Ctl, GrabsAndReleasesAParticle) {
+  const auto pull_of = [](const std::string& particle) {
+    return ctl({"release", particle, "--json"}).json()["values"]["released"];
+  };
+  EXPECT_EQ(ctl({"grab", "12", "-0.5", "0", "-2", "--stiffness", "40"}).exit_code, 0);
+  EXPECT_EQ(pull_of("12"), "[-0.5, 0, -2] m, 40 N/m");
+  EXPECT_EQ(ctl({"grab", "--json", "12", "1e-3", "-0.5", "3"}).json()["outcome"], "applied");
+  EXPECT_EQ(pull_of("12"), "[0.001, -0.5, 3] m, 0 N/m");
+  const auto again = ctl({"release", "12"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_EQ(again.err, "flexcast-ctl: rejected: particle 12 is not grabbed\n");
+}
+
 TEST_F(Ctl, SaysWhatIsNotSupported) {
-  for (const char* verb : {"load", "save", "restore"}) {
-    const auto result = ctl({verb, "name", "--json"});
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_EQ(result.json()["outcome"], "unsupported") << verb;
-  }
+  const auto result = ctl({"load", "name", "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.json()["outcome"], "unsupported");
 }
 
 TEST_F(Ctl, StatusIsReadable) {
@@ -141,6 +166,13 @@ TEST(CtlAlone, AnswersBadUsageWithCodeTwo) {
                                                                                      {"set"},
                                                                                      {"load"},
                                                                                      {"load", "a", "b"},
+                                                                                     {"save"},
+                                                                                     {"restore", "a", "b"},
+                                                                                     {"grab", "1", "0", "0"},
+                                                                                     {"grab", "-1", "0", "0", "0"},
+                                                                                     {"grab", "1", "0", "0", "up"},
+                                                                                     {"release"},
+                                                                                     {"release", "tip"},
                                                                                      {"run-until"},
                                                                                      {"step", "0"},
                                                                                      {"step", "many"},
@@ -157,6 +189,11 @@ TEST(CtlAlone, HelpAndVersionGoToStdout) {
   const auto help = ctl({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.out.find("Examples:"), std::string::npos);
+  for (const std::string verb : {"save", "restore", "load", "grab", "release"}) {
+    const auto of_verb = ctl({verb, "--help"});
+    EXPECT_EQ(of_verb.exit_code, 0);
+    EXPECT_NE(of_verb.out.find(verb == "grab" ? "--stiffness" : "REQUIRED"), std::string::npos) << of_verb.out;
+  }
   EXPECT_EQ(ctl({"--version"}).out, "flexcast-ctl " FLEXCAST_VERSION "\n");
 }
 

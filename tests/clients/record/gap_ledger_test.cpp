@@ -175,6 +175,20 @@ TEST(GapLedger, TakesADroppedFrameThatIsSentAgain) {
   EXPECT_TRUE(ledger.gaps().empty());
 }
 
+TEST(GapLedger, CountsNoStepsBackwardWhenACheckpointFromBeforeTheRecordingIsRestored) {
+  GapLedger ledger;
+  offer_frames(ledger, 50, 60);
+  wire::FrameHead restored = head_of(61);
+  restored.step = 100;
+  restored.time = 5.0;
+  offer(ledger, restored);
+  const RunSummary summary = ledger.runs().at(0);
+  EXPECT_EQ(summary.frames, 12u);
+  EXPECT_EQ(summary.steps, 0u);
+  EXPECT_EQ(summary.seconds, 0.0);
+  EXPECT_EQ(ledger.missing(), 0u);
+}
+
 TEST(GapLedger, TakesNoMoreThanTheFramesItWasAskedFor) {
   GapLedger ledger(3);
   offer_frames(ledger, 4, 5);

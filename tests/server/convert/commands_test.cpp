@@ -101,13 +101,24 @@ TEST(Commands, FieldsOfEachKindArrive) {
   EXPECT_EQ(std::get<GetCommand>(from_wire(*message, {}).body).names, std::vector<std::string>{"gravity"});
 }
 
-TEST(Commands, WhatThisServerDoesNotKnowYetIsUnsupported) {
-  for (auto kind : {flexcast_COMMAND_LOAD, flexcast_COMMAND_SAVE, flexcast_COMMAND_RESTORE, flexcast_COMMAND_GRAB,
-                    flexcast_COMMAND_RELEASE}) {
-    const Command command = from_wire(*make_message(kind), {});
-    EXPECT_TRUE(std::holds_alternative<UnsupportedCommand>(command.body));
-    EXPECT_EQ(static_cast<int>(command.kind), static_cast<int>(kind));
-  }
+TEST(Commands, NamesAndParticlesArrive) {
+  auto message = make_message(flexcast_COMMAND_SAVE);
+  wire::set_string(message->name, "start");
+  EXPECT_EQ(std::get<SaveCommand>(from_wire(*message, {}).body).name, "start");
+  message->kind = flexcast_COMMAND_RESTORE;
+  EXPECT_EQ(std::get<RestoreCommand>(from_wire(*message, {}).body).name, "start");
+  message->kind = flexcast_COMMAND_LOAD;
+  EXPECT_EQ(std::get<LoadCommand>(from_wire(*message, {}).body).name, "start");
+  message = make_message(flexcast_COMMAND_GRAB);
+  message->particle = 4'000'000'000;
+  message->stiffness = 40.0;
+  for (int i = 0; i < 3; ++i) message->target[i] = i + 1.0;
+  const Command grab = from_wire(*message, {});
+  EXPECT_EQ(std::get<GrabCommand>(grab.body).particle, 4'000'000'000);
+  EXPECT_EQ(std::get<GrabCommand>(grab.body).target, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<GrabCommand>(grab.body).stiffness, 40.0);
+  message->kind = flexcast_COMMAND_RELEASE;
+  EXPECT_EQ(std::get<ReleaseCommand>(from_wire(*message, {}).body).particle, 4'000'000'000);
 }
 
 TEST(Replies, CarryEverythingToTheClient) {
@@ -150,6 +161,10 @@ TEST(Events, CarryTheCommandThatMadeThem) {
   event.command = CommandKind::reset;
   event.keep_parameters = true;
   event.values = {{"a", 1.5}};
+  event.name = "start";
+  event.particle = 7;
+  event.target = Vec3(1, 2, 3);
+  event.stiffness = 40.0;
   event.text = "text";
   const auto message = to_wire(event, "rope");
   EXPECT_EQ(wire::text(message->world), "rope");
@@ -160,6 +175,10 @@ TEST(Events, CarryTheCommandThatMadeThem) {
   EXPECT_TRUE(message->keep_parameters);
   EXPECT_EQ(wire::text(message->client_id), "tester");
   EXPECT_EQ(message->values._length, 1u);
+  EXPECT_EQ(wire::text(message->name), "start");
+  EXPECT_EQ(message->particle, 7u);
+  EXPECT_EQ(Vec3(message->target[0], message->target[1], message->target[2]), Vec3(1, 2, 3));
+  EXPECT_EQ(message->stiffness, 40.0);
 }
 
 TEST(StepReports, WhatIsNotComputedOrNotFiniteIsNaN) {
@@ -170,7 +189,7 @@ TEST(StepReports, WhatIsNotComputedOrNotFiniteIsNaN) {
   const flexcast_StepReport message = to_wire(measured);
   EXPECT_TRUE(std::isnan(message.kinetic));
   EXPECT_EQ(message.elastic, 2.0);
-  EXPECT_TRUE(std::isnan(message.numerical));
+  EXPECT_EQ(message.numerical, 0.0);
   EXPECT_TRUE(std::isnan(message.stability_margin));
   EXPECT_TRUE(std::isnan(message.min_j));
   EXPECT_EQ(message.momentum[0], 1.0);
@@ -185,6 +204,7 @@ TEST(Statuses, JoinWhatWorldAndPublisherKnow) {
   status.failure->cause = "a position";
   status.failure->particle = 4;
   status.probes = {{"tip", Vec3(1, 2, 3), Vec3(4, 5, 6)}};
+  status.handles = {{"grip", Vec3(7, 8, 9), Vec3(1, nan, 3)}};
   status.warnings = {"careful"};
   status.frames_skipped = 8;
   const auto message =
@@ -193,6 +213,11 @@ TEST(Statuses, JoinWhatWorldAndPublisherKnow) {
   EXPECT_EQ(wire::text(message->trouble.cause), "a position");
   EXPECT_EQ(message->trouble.particle, 4);
   EXPECT_EQ(message->probes._buffer[0].velocity[2], 6.0);
+  ASSERT_EQ(message->handles._length, 1u);
+  EXPECT_EQ(wire::text(message->handles._buffer[0].name), "grip");
+  EXPECT_EQ(message->handles._buffer[0].force[2], 9.0);
+  EXPECT_EQ(message->handles._buffer[0].torque[2], 3.0);
+  EXPECT_TRUE(std::isnan(message->handles._buffer[0].torque[1]));
   EXPECT_EQ(wire::text(message->warnings._buffer[0]), "careful");
   EXPECT_EQ(message->heartbeat, 5u);
   EXPECT_EQ(message->frames_published, 6u);

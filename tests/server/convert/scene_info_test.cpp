@@ -28,23 +28,20 @@ material = { law = "corotational", young = 1e5, poisson = 0.3, density = 1000.0 
 )";
 }
 
-SceneFacts make_facts(const Simulation& simulation) {
-  SceneFacts facts;
-  facts.world = "w";
-  facts.name = "beams";
-  facts.text = "the text";
-  facts.overrides = {"a=1"};
-  facts.files = {{"a.msh", std::string("\0\1\2", 3)}};
-  facts.model = &simulation.model();
-  return facts;
-}
-
-TEST(SceneInfo, NamesBodiesWithTheirParticleRanges) {
-  const auto simulation = flexcast::test::make(beam_scene("[2, 1, 1]"));
+RunStarted start_run(const std::string& text) {
+  Result<Scene> scene = load_scene_text(text);
+  if (!scene) throw std::runtime_error(scene.error().message);
+  scene.value().overrides = {"a=1"};
+  scene.value().files = {{"a.msh", std::string("\0\1\2", 3)}};
   RunStarted run;
   run.run_id = 9;
   run.time_step = 0.001;
-  const auto message = make_scene_info(make_facts(*simulation), run);
+  run.scene = std::make_shared<const Scene>(std::move(scene).value());
+  return run;
+}
+
+TEST(SceneInfo, NamesBodiesWithTheirParticleRanges) {
+  const auto message = make_scene_info(start_run(beam_scene("[2, 1, 1]")), "w");
   EXPECT_EQ(message->run_id, 9u);
   EXPECT_EQ(message->topology_revision, 1u);
   EXPECT_EQ(message->particles, 4u + 12u);
@@ -56,23 +53,22 @@ TEST(SceneInfo, NamesBodiesWithTheirParticleRanges) {
   EXPECT_EQ(message->bodies._buffer[1].tetrahedra, 12u);
   ASSERT_EQ(message->files._length, 1u);
   EXPECT_EQ(message->files._buffer[0].content._length, 3u);
-  EXPECT_EQ(wire::text(message->scene_text), "the text");
+  EXPECT_EQ(wire::text(message->scene_text), beam_scene("[2, 1, 1]"));
   EXPECT_EQ(wire::strings(message->overrides), std::vector<std::string>{"a=1"});
 }
 
 TEST(Topology, ChunksCoverEveryElementExactlyOnceAndStayBelowOneMebibyte) {
-  const auto simulation = flexcast::test::make(beam_scene("[40, 20, 20]"));
-  const SceneFacts facts = make_facts(*simulation);
-  const Model& model = simulation->model();
+  const RunStarted run = start_run(beam_scene("[40, 20, 20]"));
+  const Model& model = run.scene->simulation->model();
   const Body& body = model.bodies[1];
-  const std::uint32_t chunks = count_topology_chunks(facts, 1);
-  EXPECT_EQ(count_topology_chunks(facts, 0), 1u);
+  const std::uint32_t chunks = count_topology_chunks(body);
+  EXPECT_EQ(count_topology_chunks(model.bodies[0]), 1u);
   ASSERT_GT(chunks, 1u);
   std::vector<double> rest;
   std::vector<std::uint32_t> tetrahedra;
   std::vector<std::uint32_t> triangles;
   for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-    const auto message = make_topology(facts, RunStarted{}, 1, chunk);
+    const auto message = make_topology(run, "w", 1, chunk);
     EXPECT_EQ(message->chunks, chunks);
     EXPECT_EQ(message->body, 1u);
     const auto append = [](auto& all, const auto& sequence) {
@@ -94,6 +90,31 @@ TEST(Topology, ChunksCoverEveryElementExactlyOnceAndStayBelowOneMebibyte) {
     ASSERT_EQ(static_cast<std::int32_t>(tetrahedra[i]), model.tetrahedra[body.tetrahedra.first + i / 4][i % 4]);
   }
   EXPECT_EQ(triangles.size(), 3u * static_cast<std::size_t>(body.triangles.count));
+}
+
+TEST(Topology, QuadraticTetrahedraShowTheirCornersAndTheSurfaceWithItsMidsideNodes) {
+  std::string text = beam_scene("[2, 1, 1]");
+  const RunStarted linear = start_run(text);
+  const RunStarted quadratic = start_run(text + "element = \"tet10\"\n");
+  const auto coarse = make_topology(linear, "w", 1, 0);
+  const auto fine = make_topology(quadratic, "w", 1, 0);
+  const auto corners = wire::elements(fine->tetrahedra);
+  ASSERT_EQ(corners.size(), 4u * 12u);
+  EXPECT_TRUE(std::equal(corners.begin(), corners.end(), wire::elements(coarse->tetrahedra).begin()));
+  EXPECT_EQ(fine->triangles._length, 4 * coarse->triangles._length);
+  const auto info = make_scene_info(quadratic, "w");
+  const auto& body = info->bodies._buffer[1];
+  EXPECT_EQ(wire::text(body.model), "fem");
+  EXPECT_EQ(body.tetrahedra, 12u);
+  EXPECT_GT(body.particles, 12u);
+  EXPECT_EQ(fine->rest_positions._length, 3 * body.particles);
+  std::uint32_t highest = 0;
+  for (const std::uint32_t particle : wire::elements(fine->triangles)) {
+    EXPECT_GE(particle, body.first_particle);
+    highest = std::max(highest, particle);
+  }
+  EXPECT_GE(highest, body.first_particle + 12) << "midside nodes follow the corners";
+  EXPECT_LT(highest, body.first_particle + body.particles);
 }
 
 }  // namespace
