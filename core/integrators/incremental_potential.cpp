@@ -13,7 +13,9 @@ void IncrementalPotential::begin(const System& system, const ImplicitStage& stag
   system_ = &system;
   stage_ = &stage;
   slip_ = 1e-4 * system.size() * stage.length;
-  noise_ = 1e-14 * system.size() * (system.stiffness_norm() + system.masses().norm() / (stage.length * stage.length));
+  // Elastic forces suffer from the rounding of positions, inertia from that of the displacement.
+  noise_ = 1e-14 * (system.size() * system.stiffness_norm() +
+                    system.masses().cwiseProduct(stage.base_velocity).norm() / stage.length);
   friction_.clear();
   u.setZero(system.dofs());
   if (system.has_handles()) {

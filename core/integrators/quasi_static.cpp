@@ -60,8 +60,7 @@ class StaticPotential final : public MinimizationProblem {
   double calc_gradient(const VecX& u, VecX& gradient) override {
     x_ = *start_ + u;
     system_->calc_position_dependent(x_, force_);
-    const double terms =
-        force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm();
+    const double terms = force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm();
     force_ += constant_;
     gradient = -force_.cwiseProduct(system_->free());
     return terms;
@@ -82,6 +81,7 @@ class StaticPotential final : public MinimizationProblem {
   }
 
   double calc_noise() const override { return noise_; }
+  int patience() const override { return 2; }
 
   bool adapt(double length) override {
     if (length == 1.0) {

@@ -5,6 +5,7 @@
 namespace flexcast {
 
 double find_stability_limit(double scale, const std::function<double(double)>& spectral_radius) {
+  if (!(scale > 0.0)) return 0.0;  // a mode faster than any number
   const auto stable = [&](double s) { return spectral_radius(s) <= 1.0 + 1e-10; };
   double low = 0.0, high = scale;
   while (stable(high)) {

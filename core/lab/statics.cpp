@@ -41,9 +41,7 @@ bool solve_static(Simulation& simulation, const StaticOptions& options) {
   for (int i = 0; i < increments && !is_stopped(); ++i) {
     if (!simulation.step()) return false;
   }
-  const auto is_found = [&] {
-    return simulation.statistics().converged || simulation.statistics().residual <= wanted;
-  };
+  const auto is_found = [&] { return simulation.statistics().converged || simulation.statistics().residual <= wanted; };
   for (int i = 0; i < options.most_steps && !is_found() && !is_stopped(); ++i) {
     if (!simulation.step()) return false;
   }

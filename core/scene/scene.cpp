@@ -29,9 +29,11 @@ toml::table parse(const std::string& text, const std::string& origin) {
 // Values in range can still multiply up to more than a double holds.
 void check_start(const Simulation& simulation, const SceneDescription& description) {
   const StepReport report = simulation.calc_report();
-  const std::pair<const char*, double> energies[] = {
-      {"elastic", report.elastic}, {"gravity", report.gravity}, {"contact", report.contact},
-      {"kinetic", report.kinetic}, {"external", report.work}};
+  const std::pair<const char*, double> energies[] = {{"elastic", report.elastic},
+                                                     {"gravity", report.gravity},
+                                                     {"contact", report.contact},
+                                                     {"kinetic", report.kinetic},
+                                                     {"external", report.work}};
   for (const auto& [name, value] : energies) {
     if (!std::isfinite(value))
       refuse_owner(description.bodies.front().place, "the " + std::string(name) +
@@ -54,8 +56,8 @@ Scene load(const std::string& text, const std::string& origin, const std::filesy
   scene.overrides = overrides;
   scene.files = std::move(built.files);
   scene.notes = std::move(built.notes);
-  scene.simulation = std::make_unique<Simulation>(std::move(built.model), description.settings,
-                                                  std::move(built.state), std::move(built.probes));
+  scene.simulation = std::make_unique<Simulation>(std::move(built.model), description.settings, std::move(built.state),
+                                                  std::move(built.probes));
   check_start(*scene.simulation, description);
   return scene;
 }

@@ -454,6 +454,8 @@ double Simulation::calc_stable_step() const {
   for (const ModeBound& bound : calc_largest_modes(*system_, *model_, state_.positions)) {
     const double omega = std::sqrt(bound.omega_squared);
     if (omega == 0.0 && bound.damping_rate == 0.0) continue;
+    constexpr double fastest = 1e150;  // 1/s: squares of more are no numbers
+    if (!(omega < fastest && bound.damping_rate < fastest)) return 0.0;
     // Damping shortens the step of some schemes and lengthens that of others.
     limit = std::min({limit, row.calc_stable_step(omega, bound.damping_rate),
                       row.calc_stable_step(omega, bound.least_damping_rate)});

@@ -18,6 +18,8 @@ class MinimizationProblem {
   virtual double calc_gradient(const VecX& u, VecX& gradient) = 0;
   // The norm that rounding alone gives a gradient: where none smaller can be found, one below it is as good as zero.
   virtual double calc_noise() const { return 0.0; }
+  // After how many iterations without progress below the noise that is so; more where Hessians are shifted.
+  virtual int patience() const { return 1; }
   // Exact, or a positive definite neighbour of it.
   virtual void calc_hessian(const VecX& u, bool exact, BlockMatrix& hessian) = 0;
   // Told after each line search how much of the direction was taken, 0: none. A problem that shifts its Hessians adapts

@@ -1,6 +1,6 @@
-// Random scenes and random batches of parameters, commands and checkpoints. Whatever comes in: nothing that is not finite
-// comes out, nothing hangs, a refusal names its cause and changes nothing, a failure names its cause and rolls back.
-// FLEXCAST_FUZZ_SCENES in the environment: how many scenes each case tries (default 12500, eight cases).
+// Random scenes and random batches of parameters, commands and checkpoints. Whatever comes in: nothing that is not
+// finite comes out, nothing hangs, a refusal names its cause and changes nothing, a failure names its cause and rolls
+// back. FLEXCAST_FUZZ_SCENES in the environment: how many scenes each case tries (default 12500, eight cases).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,12 +30,20 @@ bool is_moderate(const State& state) {
 
 // Every number of a report, or the first that is not finite by name.
 std::string find_bad_number(const StepReport& r) {
-  const std::pair<const char*, double> numbers[] = {
-      {"kinetic", r.kinetic},       {"elastic", r.elastic},     {"gravity", r.gravity},
-      {"contact", r.contact},       {"work", r.work},           {"dissipated", r.dissipated},
-      {"numerical", r.numerical},   {"px", r.momentum.x()},     {"py", r.momentum.y()},
-      {"pz", r.momentum.z()},       {"Lx", r.angular_momentum.x()}, {"residual", r.statistics.residual},
-      {"min_j", r.min_j.value_or(0.0)}, {"margin", r.stability_margin.value_or(0.0)}};
+  const std::pair<const char*, double> numbers[] = {{"kinetic", r.kinetic},
+                                                    {"elastic", r.elastic},
+                                                    {"gravity", r.gravity},
+                                                    {"contact", r.contact},
+                                                    {"work", r.work},
+                                                    {"dissipated", r.dissipated},
+                                                    {"numerical", r.numerical},
+                                                    {"px", r.momentum.x()},
+                                                    {"py", r.momentum.y()},
+                                                    {"pz", r.momentum.z()},
+                                                    {"Lx", r.angular_momentum.x()},
+                                                    {"residual", r.statistics.residual},
+                                                    {"min_j", r.min_j.value_or(0.0)},
+                                                    {"margin", r.stability_margin.value_or(0.0)}};
   for (const auto& [name, value] : numbers) {
     if (!std::isfinite(value)) return name;
   }

@@ -53,7 +53,8 @@ class RandomScene {
       case ParameterKind::vector:
         return vector(1.0);
       case ParameterKind::choice:
-        return descriptor.row->choices[static_cast<std::size_t>(pick(static_cast<int>(descriptor.row->choices.size())))];
+        return descriptor.row
+            ->choices[static_cast<std::size_t>(pick(static_cast<int>(descriptor.row->choices.size())))];
     }
     return "0";
   }
@@ -74,9 +75,9 @@ class RandomScene {
 
   // About `scale`, rarely extreme or no number at all.
   std::string number(double scale) {
-    static constexpr std::array extremes = {"0.0",   "-1.0",  "1e-300", "1e-30", "1e-9", "1e9",      "1e30",
-                                            "1e300", "-1e30", "nan",    "inf",   "-inf", "\"text\"", "true",
-                                            "[1.0]", "5e-324", "0.5",   "0.4999", "-0.999"};
+    static constexpr std::array extremes = {"0.0",   "-1.0",   "1e-300", "1e-30",  "1e-9",  "1e9",      "1e30",
+                                            "1e300", "-1e30",  "nan",    "inf",    "-inf",  "\"text\"", "true",
+                                            "[1.0]", "5e-324", "0.5",    "0.4999", "-0.999"};
     if (chance(strange_)) return extremes[static_cast<std::size_t>(pick(extremes.size()))];
     return text_of(scale * uniform(0.05, 1.5));
   }

@@ -53,7 +53,7 @@ TEST(Selector, IgnoresTheDisplacement) {
 }
 
 TEST(Selector, KnowsNoAbsoluteLength) {
-  for (const std::string length : {"1e-120", "1e120"}) {
+  for (const std::string length : {"1e-120", "1e37"}) {
     const std::string mesh = "{ shape = \"grid\", cells = [2, 2], size = [" + length + ", " + length + "] }";
     std::string text = changed("{ shape = \"grid\", cells = [2, 2], size = [1.0, 1.0] }", mesh);
     text = changed("[[probe]]\n", "pin = [ { select = { sphere = [0.0, 0.0, 0.0, " + length + "] } } ]\n[[probe]]\n",

@@ -129,6 +129,16 @@ TEST_P(StableStep, IsNeverAboveTheTrueLimitAndNotFarBelow) {
   }
 }
 
+TEST(StableStepLimit, OfASceneStifferThanAnyNumberIsZero) {
+  for (const IntegratorRow& row : integrators()) {
+    if (row.implicit) continue;
+    const auto simulation = make("name = \"stiff\"\n" + time_table(row.name, 1e-3) + cases()[8].bodies);
+    ASSERT_TRUE(simulation->set_parameters(std::vector<ParameterAssignment>{{"sheet.stiffness", 1e307}}).ok());
+    EXPECT_LE(simulation->calc_stable_step(), 1e-150) << row.name;
+    EXPECT_FALSE(simulation->calc_warnings().empty());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryScene, StableStep, testing::ValuesIn(cases()),
                          [](const auto& row) { return std::string(row.param.name); });
 
