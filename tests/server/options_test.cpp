@@ -25,8 +25,9 @@ TEST(ServerOptions, DefaultsAreDomain0RealtimeAndTheScenesName) {
 
 TEST(ServerOptions, EveryOptionIsUnderstood) {
   const auto options = std::get<Options>(
-      parse({"rope.toml", "--world", "w_1-a", "--domain", "7", "--profile", "lan", "--rate", "2.5", "--paused",
-             "--until", "1e1", "--exit", "--checkpoints", "/tmp/c", "--set", "a.b=1", "--set", "gravity=[0,0,-3]"}));
+      parse({"rope.toml", "--world",   "w_1-a",    "--domain", "7",     "--profile", "lan",
+             "--rate",    "2.5",       "--paused", "--until",  "1e1",   "--exit",    "--checkpoints",
+             "/tmp/c",    "--threads", "2",        "--set",    "a.b=1", "--set",     "gravity=[0,0,-3]"}));
   EXPECT_EQ(options.world, "w_1-a");
   EXPECT_EQ(options.domain, 7);
   EXPECT_EQ(options.profile, "lan");
@@ -34,6 +35,7 @@ TEST(ServerOptions, EveryOptionIsUnderstood) {
   EXPECT_TRUE(options.paused);
   EXPECT_EQ(options.until, 10.0);
   EXPECT_EQ(options.checkpoints, "/tmp/c");
+  EXPECT_EQ(options.threads, 2);
   EXPECT_TRUE(options.exit);
   EXPECT_EQ(options.overrides, (std::vector<std::string>{"a.b=1", "gravity=[0,0,-3]"}));
 }
