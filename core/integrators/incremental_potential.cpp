@@ -57,13 +57,14 @@ double IncrementalPotential::calc_gradient(const VecX& u, VecX& gradient) {
   inertia_ = system_->masses().cwiseProduct(u - g * stage_->base_velocity).cwiseProduct(free) / (g * g);
   system_->calc_position_dependent(x_, elastic_);
   force_ = elastic_ + constant_;
-  double terms = inertia_.norm() + elastic_.cwiseProduct(free).norm() + constant_.cwiseProduct(free).norm();
+  // Reactions of what is held count among the terms.
+  double terms = inertia_.norm() + elastic_.norm() + constant_.norm();
   damping_power_ = 0.0;
   if (system_->has_damping()) {
     velocity_ = u / g;
     damping_power_ = system_->calc_damping(stage_->damped_at, velocity_, damping_);
     force_ += damping_;
-    terms += damping_.cwiseProduct(free).norm();
+    terms += damping_.norm();
   }
   if (!friction_.empty()) {
     sliding_.setZero(u.size());
@@ -71,7 +72,7 @@ double IncrementalPotential::calc_gradient(const VecX& u, VecX& gradient) {
       block3(sliding_, point.particle) -= calc_friction_potential(point, slip_, block3(u, point.particle)).gradient;
     }
     force_ += sliding_;
-    terms += sliding_.cwiseProduct(free).norm();
+    terms += sliding_.norm();
   }
   gradient = inertia_ - force_.cwiseProduct(free);
   return terms;

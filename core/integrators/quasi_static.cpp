@@ -60,7 +60,8 @@ class StaticPotential final : public MinimizationProblem {
   double calc_gradient(const VecX& u, VecX& gradient) override {
     x_ = *start_ + u;
     system_->calc_position_dependent(x_, force_);
-    const double terms = force_.cwiseProduct(system_->free()).norm() + constant_.cwiseProduct(system_->free()).norm();
+    // Held particles count: where nothing else pulls, their reactions are what forces are compared with.
+    const double terms = force_.norm() + constant_.norm();
     force_ += constant_;
     gradient = -force_.cwiseProduct(system_->free());
     return terms;
