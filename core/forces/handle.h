@@ -20,6 +20,9 @@ struct HandleMotion {
   }
 };
 
+// The turn by |r| rad about r; the identity, exactly, for r = 0.
+Mat3 calc_rotation_matrix(const Vec3& rotation_vector);
+
 // How far the motion has come: 0 before start, 1 after start + duration.
 double calc_progress(const Handle& handle, double time);
 

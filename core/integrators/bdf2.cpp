@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "core/base/checks.h"
 #include "core/forces/friction.h"
 #include "core/integrators/incremental_potential.h"
 #include "core/integrators/velocity_change.h"

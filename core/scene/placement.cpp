@@ -1,23 +1,17 @@
 #include "core/scene/placement.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/forces/handle.h"
 #include "core/mesh/topology.h"
 #include "core/scene/value_text.h"
 
 namespace flexcast {
 namespace {
 
-Mat3 calc_rotation(const Vec3& rotation_vector) {
-  const double angle = rotation_vector.stableNorm();
-  if (angle == 0.0) return Mat3::Identity();  // exactly
-  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
-}
-
 // rest = R X + origin, for the already scaled mesh.
 void place_nodes(const BodyDescription& body, std::vector<Vec3>& nodes) {
-  const Mat3 R = calc_rotation(body.rotation);
+  const Mat3 R = calc_rotation_matrix(body.rotation);
   for (Vec3& node : nodes) {
     node = (R * node + body.origin).eval();
     if (!node.allFinite())
