@@ -43,6 +43,7 @@ const std::map<std::string, std::string> owners = {
     {R"(^zstd)", "clients/mcap"},
     {R"(^zlib\.h)", "clients/mcap"},
     {R"(^xxhash\.h)", "core/sim"},
+    {R"(^tbb/)", "core/base"},
 };
 
 struct Include {
