@@ -1,12 +1,15 @@
 #include "core/base/block_matrix.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/base/checks.h"
 
 namespace flexcast {
 
 BlockMatrix::BlockMatrix(std::int32_t rows, std::vector<std::pair<std::int32_t, std::int32_t>> pairs) {
+  static std::atomic<std::uint64_t> last{0};
+  pattern_id_ = ++last;
   const std::size_t given = pairs.size();
   pairs.reserve(2 * given + static_cast<std::size_t>(rows));
   for (std::size_t k = 0; k < given; ++k) pairs.emplace_back(pairs[k].second, pairs[k].first);

@@ -28,6 +28,12 @@ class BlockMatrix {
   // Rows and columns of held degrees of freedom (free[i] = 0) become those of the identity.
   void hold(const VecX& free);
 
+  // Where block (i, j) is, which the pattern must have: 9 doubles from values() + 9 * find(i, j), column by column.
+  std::int64_t find(std::int32_t i, std::int32_t j) const;
+  double* values() { return blocks_.front().data(); }
+  // Of the pattern; copies have the same.
+  std::uint64_t pattern_id() const { return pattern_id_; }
+
   // y = A x.
   void multiply(const VecX& x, VecX& y) const;
 
@@ -40,8 +46,7 @@ class BlockMatrix {
   const Mat3& diagonal(std::int32_t row) const { return blocks_[diagonals_[row]]; }
 
  private:
-  std::int64_t find(std::int32_t i, std::int32_t j) const;
-
+  std::uint64_t pattern_id_ = 0;
   std::vector<std::int64_t> starts_;     // rows + 1
   std::vector<std::int64_t> diagonals_;  // rows: where the diagonal block is
   std::vector<std::int32_t> columns_;

@@ -1,6 +1,7 @@
 #include "core/base/parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,7 +12,8 @@ namespace {
 
 struct Threads {
   int count = 1;
-  std::unique_ptr<tbb::task_arena> arena;  // none for one thread
+  std::unique_ptr<tbb::global_control> limit;  // oneTBB's own is the number of processors
+  std::unique_ptr<tbb::task_arena> arena;      // none for one thread
 };
 
 Threads& threads() {
@@ -25,7 +27,11 @@ void set_thread_count(int count) {
   Threads& mine = threads();
   mine.count = std::max(1, count);
   mine.arena.reset();
-  if (mine.count > 1) mine.arena = std::make_unique<tbb::task_arena>(mine.count);
+  mine.limit.reset();
+  if (mine.count == 1) return;
+  mine.limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                     static_cast<std::size_t>(mine.count));
+  mine.arena = std::make_unique<tbb::task_arena>(mine.count);
 }
 
 int thread_count() {

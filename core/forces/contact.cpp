@@ -99,7 +99,7 @@ class Contact final : public Force {
   std::int64_t constraint_count() const override {
     return 4 * model_.particle_count() * static_cast<std::int64_t>(model_.obstacles.size());
   }
-  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override;
+  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
 
   bool has_friction() const override {
     return std::any_of(model_.obstacles.begin(), model_.obstacles.end(),
@@ -157,7 +157,7 @@ class Contact final : public Force {
   std::vector<double> chosen_rates_;  // 1/s^2, per body: stiffness over mass
 };
 
-void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const {
+void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
   const std::size_t count = model_.obstacles.size();
   for_bodies([&](const Body& body, double rate) {
     for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) {
@@ -166,21 +166,21 @@ void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> 
         const std::size_t first = 4 * (static_cast<std::size_t>(i) * count + o);
         double& multiplier = lambda[first];
         Eigen::Map<Vec3> rubbed(&lambda[first + 1]);
-        const Touch touch = find_touch(model_.obstacles[o], block3(x, i));
+        const Touch touch = find_touch(model_.obstacles[o], block3(sweep.start, i) + block3(u, i));
         if (!(touch.depth > 0.0) && multiplier == 0.0) continue;
         const double s = sweep.h * sweep.h * stiffness(model_.obstacles[o], rate, i);
         const Vec3 wn = w.cwiseProduct(touch.normal);
         const double unbounded = (s * touch.depth - multiplier) / (s * touch.normal.dot(wn) + 1.0);
         const double change = std::max(unbounded, -multiplier);  // it pushes, never pulls
         multiplier += change;
-        block3(x, i) += change * wn;
+        block3(u, i) += change * wn;
         // Friction stops sliding with an impulse up to the coefficient times the normal one, over all sweeps.
-        const Vec3 moved = block3(x, i) - rubbed - block3(sweep.start, i);
+        const Vec3 moved = block3(u, i) - rubbed;
         const Vec3 slid = w.cwiseSign().cwiseAbs().cwiseProduct(moved - touch.normal.dot(moved) * touch.normal);
         const double length = slid.norm();
         const double most = model_.obstacles[o].friction * multiplier * w.maxCoeff();
         const Vec3 held = length > 0.0 ? Vec3(-std::min(1.0, most / length) * slid) : Vec3(Vec3::Zero());
-        block3(x, i) += held - rubbed;
+        block3(u, i) += held - rubbed;
         rubbed = held;
       }
     }

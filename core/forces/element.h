@@ -51,23 +51,41 @@ struct Element {
   }
 };
 
-// Number `t` of the body's tetrahedra.
+// Particles of the world of number `t` of the body's tetrahedra.
 template <class Shape>
-Element<Shape> make_element(const Model& model, const Body& body, std::int32_t t) {
-  Element<Shape> e;
+std::array<std::int32_t, Shape::nodes> make_nodes(const Model& model, const Body& body, std::int32_t t) {
+  std::array<std::int32_t, Shape::nodes> nodes;
   const Tetrahedron& corners = model.tetrahedra[body.tetrahedra.first + t];
-  std::copy(corners.begin(), corners.end(), e.nodes.begin());
+  std::copy(corners.begin(), corners.end(), nodes.begin());
   if constexpr (Shape::nodes == 10) {
     const Midsides& midsides = model.midsides[body.midsides.first + t];
-    std::copy(midsides.begin(), midsides.end(), e.nodes.begin() + 4);
+    std::copy(midsides.begin(), midsides.end(), nodes.begin() + 4);
   }
-  // Straight sides: the corners alone map the reference tetrahedron to the one at rest.
-  const Mat3 edges = e.calc_edges(model.rest_positions).template leftCols<3>();
-  const Mat3 inverse = edges.inverse();
+  return nodes;
+}
+
+// Straight sides: the corners alone map the reference tetrahedron to the one at rest.
+struct RestShape {
+  Mat3 inverse_edges;  // 1/m, [X1-X0, X2-X0, X3-X0]^-1
+  double volume;       // m^3
+};
+inline RestShape calc_rest_shape(const Model& model, const Body& body, std::int32_t t) {
+  const auto [a, b, c, d] = model.tetrahedra[body.tetrahedra.first + t];
+  const VecX& X = model.rest_positions;
+  Mat3 edges;
+  edges << block3(X, b) - block3(X, a), block3(X, c) - block3(X, a), block3(X, d) - block3(X, a);
+  return {edges.inverse(), edges.determinant() / 6.0};
+}
+
+template <class Shape>
+Element<Shape> make_element(const Model& model, const Body& body, std::int32_t t) {
+  const RestShape rest = calc_rest_shape(model, body, t);
+  Element<Shape> e;
+  e.nodes = make_nodes<Shape>(model, body, t);
   for (int q = 0; q < Shape::points; ++q) {
-    e.gradients[static_cast<std::size_t>(q)] = Shape::calc_slopes(q) * inverse;
+    e.gradients[static_cast<std::size_t>(q)] = Shape::calc_slopes(q) * rest.inverse_edges;
   }
-  e.weight = edges.determinant() / 6.0 / Shape::points;
+  e.weight = rest.volume / Shape::points;
   return e;
 }
 

@@ -51,20 +51,24 @@ double calc_omega_squared_bound(const Element<Shape>& e, Lame elastic, const std
 // The same for a mesh: the mass of each particle is shared in proportion to what the elements gave it, and the largest
 // element frequency bounds that of the whole (Irons).
 template <class Shape>
-double calc_omega_squared_bound(const std::vector<Element<Shape>>& elements, Lame elastic, const Model& model) {
-  VecX shares = VecX::Zero(model.particle_count());  // m^3
-  for (const auto& e : elements) {
-    for (std::size_t a = 0; a < e.nodes.size(); ++a) shares[e.nodes[a]] += Shape::mass_shares[a] * e.weight;
+double calc_omega_squared_bound(const Model& model, const Body& body, Lame elastic) {
+  VecX shares = VecX::Zero(body.particles.count);  // m^3
+  const auto share = [&](std::int32_t node) -> double& { return shares[node - body.particles.first]; };
+  for (std::int32_t t = 0; t < body.tetrahedra.count; ++t) {
+    const auto nodes = make_nodes<Shape>(model, body, t);
+    const double volume = calc_rest_shape(model, body, t).volume;
+    for (std::size_t a = 0; a < nodes.size(); ++a) share(nodes[a]) += Shape::mass_shares[a] * volume;
   }
   double largest = 0.0;
-  for (const auto& e : elements) {
+  for (std::int32_t t = 0; t < body.tetrahedra.count; ++t) {
+    const Element<Shape> e = make_element<Shape>(model, body, t);
     std::array<double, Shape::nodes> masses;
     for (std::size_t a = 0; a < e.nodes.size(); ++a) {
       const std::int32_t node = e.nodes[a];
       const std::uint8_t* fixed = &model.fixed[3 * static_cast<std::size_t>(node)];
       const bool held = fixed[0] && fixed[1] && fixed[2];
       masses[a] = held ? std::numeric_limits<double>::infinity()
-                       : model.masses[node] * Shape::mass_shares[a] * e.weight / shares[node];
+                       : model.masses[node] * Shape::mass_shares[a] * (Shape::points * e.weight) / share(node);
     }
     largest = std::max(largest, calc_omega_squared_bound(e, elastic, masses));
   }

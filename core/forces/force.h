@@ -79,10 +79,10 @@ class Force {
                                   std::span<const std::int32_t> /*particles*/, std::span<Vec3> /*f*/,
                                   std::span<Mat3> /*K*/) const {}
 
-  // For position-based dynamics: how many compliant constraints there are, and one sweep over them that moves x and
-  // their multipliers lambda.
+  // For position-based dynamics: how many multipliers of compliant constraints there are, and one sweep over these that
+  // changes the displacements u from the start of the step and the multipliers.
   virtual std::int64_t constraint_count() const { return 0; }
-  virtual void sweep_constraints(const ConstraintSweep& /*sweep*/, std::span<double> /*lambda*/, VecX& /*x*/) const {}
+  virtual void sweep_constraints(const ConstraintSweep& /*sweep*/, std::span<double> /*lambda*/, VecX& /*u*/) const {}
 
   // Where friction acts at x.
   virtual bool has_friction() const { return false; }

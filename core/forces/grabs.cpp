@@ -42,7 +42,7 @@ class Grabs final : public Force {
 
   // Each axis is a constraint of its own: C = x - target, stiffness k.
   std::int64_t constraint_count() const override { return 3 * static_cast<std::int64_t>(model_.grabs.size()); }
-  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override {
+  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override {
     for (std::size_t g = 0; g < model_.grabs.size(); ++g) {
       const Grab& grab = model_.grabs[g];
       const double s = sweep.h * sweep.h * grab.stiffness;
@@ -50,9 +50,9 @@ class Grabs final : public Force {
         const std::int64_t dof = 3 * static_cast<std::int64_t>(grab.particle) + axis;
         const double w = sweep.inverse_masses[dof];
         double& multiplier = lambda[3 * g + static_cast<std::size_t>(axis)];
-        const double change = (s * (grab.target[axis] - x[dof]) - multiplier) / (s * w + 1.0);
+        const double change = (s * (grab.target[axis] - sweep.start[dof] - u[dof]) - multiplier) / (s * w + 1.0);
         multiplier += change;
-        x[dof] += w * change;
+        u[dof] += w * change;
       }
     }
   }

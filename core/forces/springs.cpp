@@ -1,6 +1,8 @@
 #include "core/forces/springs.h"
 
+#include "core/forces/patches.h"
 #include "core/forces/spring.h"
+#include "core/forces/spring_kernels.h"
 
 namespace flexcast {
 namespace {
@@ -23,8 +25,8 @@ class Springs final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
-  std::int64_t constraint_count() const override { return static_cast<std::int64_t>(elements_.size()); }
-  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override;
+  std::int64_t constraint_count() const override { return patches_.batch_count() * Patches::lanes; }
+  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override;
 
@@ -40,6 +42,13 @@ class Springs final : public Force {
     A.add(e.q, e.p, -block);
   }
 
+  SpringBatches batches(const Patch& patch) const {
+    const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
+    return {patch.batches, patches_.places(patch.first_batch), rest_lengths_.data() + first,
+            inverse_rest_lengths_.data() + first};
+  }
+  double add_both(double stiffness, const VecX& x, const VecX& v, VecX& f) const;
+
   // Calls visit(i, e, sign) for the springs of each listed particle of the body; sign = 1 at p, -1 at q.
   template <class Visit>
   void for_springs_at(std::span<const std::int32_t> particles, Visit visit) const;
@@ -47,60 +56,55 @@ class Springs final : public Force {
   const Model& model_;
   const Body& body_;
   std::vector<Element> elements_;
+  Patches patches_;
+  AlignedVector<double> rest_lengths_, inverse_rest_lengths_;  // as in SpringBatches
   // The springs that meet at a particle of the body, made when first asked for.
   mutable std::vector<std::int32_t> meeting_starts_, meeting_;
 };
 
 Springs::Springs(const Model& model, std::size_t body) : model_(model), body_(model.bodies[body]) {
+  constexpr std::int32_t most_in_patch = 1024;
   elements_.reserve(body_.springs.count);
+  std::vector<std::int32_t> ends;
   for (std::int32_t s = body_.springs.first; s < body_.springs.end(); ++s) {
     const auto [p, q] = model.springs[s];
     elements_.push_back({p, q, (block3(model.rest_positions, q) - block3(model.rest_positions, p)).stableNorm()});
+    ends.insert(ends.end(), {p, q});
+  }
+  patches_ = Patches(ends, 2, most_in_patch, model.rest_positions, body_.particles);
+  for (const std::int32_t k : patches_.elements()) {
+    const double r = elements_[static_cast<std::size_t>(k >= 0 ? k : -1 - k)].r;
+    rest_lengths_.push_back(r);
+    inverse_rest_lengths_.push_back(k >= 0 ? 1.0 / r : 0.0);
   }
 }
 
 void Springs::add_conservative(const VecX& x, VecX& f) const {
-  for (const Element& e : elements_) {
-    const Vec3 force = calc_spring_force(block3(x, e.q) - block3(x, e.p), Vec3::Zero(), e.r, body_.stiffness, 0.0);
-    block3(f, e.p) += force;
-    block3(f, e.q) -= force;
-  }
+  patches_.add_to(x, f, [&](const Patch& patch, const double* local_x, double* local_f) {
+    add_spring_forces(batches(patch), body_.stiffness, local_x, local_f);
+  });
 }
 
 double Springs::add_damping(const VecX& x, const VecX& v, VecX& f) const {
-  double power = 0.0;
-  for (const Element& e : elements_) {
-    const Vec3 d = block3(x, e.q) - block3(x, e.p);
-    const Vec3 dv = block3(v, e.q) - block3(v, e.p);
-    const Vec3 force = calc_spring_damping_force(d, dv, e.r, body_.damping);
-    block3(f, e.p) += force;
-    block3(f, e.q) -= force;
-    power += force.dot(dv);
-  }
-  return power;
+  return add_both(0.0, x, v, f);
 }
 
 double Springs::add_force(const VecX& x, const VecX& v, VecX& f) const {
   if (!has_damping()) return add_conservative(x, f), 0.0;
-  double power = 0.0;
-  for (const Element& e : elements_) {
-    const SpringDirection direction = calc_spring_direction(block3(x, e.q) - block3(x, e.p));
-    const double rate = (block3(v, e.q) - block3(v, e.p)).dot(direction.n);
-    const double damping = body_.damping * rate / e.r;
-    const Vec3 force = (body_.stiffness * (direction.l / e.r - 1.0) + damping) * direction.n;
-    block3(f, e.p) += force;
-    block3(f, e.q) -= force;
-    power += damping * rate;
-  }
-  return power;
+  return add_both(body_.stiffness, x, v, f);
+}
+
+double Springs::add_both(double stiffness, const VecX& x, const VecX& v, VecX& f) const {
+  return patches_.add_to(
+      x, v, f, [&](const Patch& patch, const double* local_x, const double* local_v, double* local_f) {
+        return add_damped_spring_forces(batches(patch), stiffness, body_.damping, local_x, local_v, local_f);
+      });
 }
 
 double Springs::calc_energy(const VecX& x) const {
-  double energy = 0.0;
-  for (const Element& e : elements_) {
-    energy += calc_spring_energy(block3(x, e.q) - block3(x, e.p), e.r, body_.stiffness);
-  }
-  return energy;
+  return patches_.sum(x, [&](const Patch& patch, const double* local_x) {
+    return calc_spring_energy(batches(patch), body_.stiffness, local_x);
+  });
 }
 
 void Springs::add_couplings(std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) const {
@@ -167,23 +171,15 @@ void Springs::add_damping_blocks(const VecX& x, const VecX& v, double scale, std
 
 // C = l - r of compliance r / k_s, damped by k_d / r. Multiplied through by s = h^2 k_s / r and s_d = h k_d / r, so
 // that no stiffness is no trouble:
-//   dlambda = (-s C - lambda - s_d gradC.(x - start)) / ((s + s_d) W + 1),  W = sum_i w_i |grad_i C|^2.
+//   dlambda = (-s C - lambda - s_d gradC.u) / ((s + s_d) W + 1),  W = sum_i w_i |grad_i C|^2.
 // Source: M. Macklin, M. Mueller, N. Chentanez, XPBD, Motion in Games 2016, equations 18 and 26.
-void Springs::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const {
-  for (std::size_t k = 0; k < elements_.size(); ++k) {
-    const Element& e = elements_[k];
-    const SpringDirection direction = calc_spring_direction(block3(x, e.q) - block3(x, e.p));
-    const Vec3 n = direction.n;
-    const double s = sweep.h * sweep.h * body_.stiffness / e.r, s_d = sweep.h * body_.damping / e.r;
-    const Vec3 wn_p = block3(sweep.inverse_masses, e.p).cwiseProduct(n);
-    const Vec3 wn_q = block3(sweep.inverse_masses, e.q).cwiseProduct(n);
-    const double moved = n.dot(block3(x, e.q) - block3(sweep.start, e.q) - block3(x, e.p) + block3(sweep.start, e.p));
-    const double W = n.dot(wn_p) + n.dot(wn_q);
-    const double change = (-s * (direction.l - e.r) - lambda[k] - s_d * moved) / ((s + s_d) * W + 1.0);
-    lambda[k] += change;
-    block3(x, e.p) -= change * wn_p;
-    block3(x, e.q) += change * wn_q;
-  }
+void Springs::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
+  patches_.sweep(sweep.start, sweep.inverse_masses, u,
+                 [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
+                   double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
+                   sweep_spring_constraints(
+                       batches(patch), {sweep.h, body_.stiffness, body_.damping, start, inverse_masses, mine, local_u});
+                 });
 }
 
 // A spring of stiffness k between shares of its ends' masses has omega^2 = k (1/m_p + 1/m_q). Shared out in proportion

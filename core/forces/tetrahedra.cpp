@@ -8,6 +8,8 @@
 #include "core/forces/element_modes.h"
 #include "core/forces/incidences.h"
 #include "core/forces/kelvin_voigt.h"
+#include "core/forces/patches.h"
+#include "core/forces/tetrahedra_kernels.h"
 
 namespace flexcast {
 namespace {
@@ -30,14 +32,14 @@ class Tetrahedra final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
-  std::int64_t constraint_count() const override { return static_cast<std::int64_t>(elements_.size()); }
-  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const override;
+  std::int64_t constraint_count() const override { return patches_.batch_count() * Patches::lanes; }
+  void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override;
 
  private:
-  static constexpr std::size_t points = Shape::points;
-  static constexpr std::size_t batch_size = 32;  // quadrature points
+  static constexpr std::size_t points = Shape::points, nodes = Shape::nodes;
+  static constexpr std::int32_t most_in_patch = Shape::nodes == 4 ? 512 : 128;
   using Element = flexcast::Element<Shape>;
 
   Lame lame() const { return calc_lame(body_.young, body_.poisson); }
@@ -46,25 +48,21 @@ class Tetrahedra final : public Force {
     return {body_.stiffness_damping * elastic.mu, body_.stiffness_damping * elastic.lambda};
   }
   bool small_strain() const { return body_.law->small_strain; }
+  ElementLaw element_law() const { return {body_.law, lame(), damping_lame(), small_strain()}; }
+  ElementBatches batches(const Patch& patch) const {
+    const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
+    return {patch.batches, Shape::nodes == 10, patches_.places(patch.first_batch), inverse_edges_.data() + 9 * first,
+            weights_.data() + first};
+  }
 
-  // Calls visit(first, F) for every run of elements that fills at most a batch, with their deformation gradients.
-  template <class Visit>
-  void for_batches(const VecX& x, Visit visit) const {
-    std::array<Mat3, batch_size> F;
-    for (std::size_t first = 0; first < elements_.size(); first += batch_size / points) {
-      const std::size_t count = std::min(batch_size / points, elements_.size() - first);
-      for (std::size_t i = 0; i < count; ++i) elements_[first + i].calc_gradients(x, of_element(F, i));
-      visit(first, std::span<const Mat3>(F.data(), points * count));
-    }
-  }
-  // The values at the points of a batch's element number i.
-  template <class T>
-  static std::span<T, points> of_element(std::array<T, batch_size>& values, std::size_t i) {
-    return std::span<T, points>(values.data() + points * i, points);
-  }
+  std::int32_t element_count() const { return body_.tetrahedra.count; }
+  Element element(std::int32_t t) const { return make_element<Shape>(model_, body_, t); }
   // Calls visit(i, element, node) for every element at particles[i].
   template <class Visit>
   void for_incidences(std::span<const std::int32_t> particles, Visit visit) const {
+    if (elements_.empty()) {
+      for (std::int32_t t = 0; t < element_count(); ++t) elements_.push_back(element(t));
+    }
     if (!incidences_) incidences_.emplace(body_.particles, elements_);
     for (std::size_t i = 0; i < particles.size(); ++i) {
       for (const auto& [element, node] : incidences_->at(particles[i])) {
@@ -72,94 +70,133 @@ class Tetrahedra final : public Force {
       }
     }
   }
-  void project(const Element& e, Lame elastic, const ConstraintSweep& sweep, double& lambda, VecX& x) const;
+  void find_entries(const BlockMatrix& A) const;
+  // Calls add(patch, x of its particles, entries of its elements); patches that share no particle at the same time.
+  template <class Add>
+  void add_to_matrix(const VecX& x, BlockMatrix& A, Add add) const;
 
   const Model& model_;
   const Body& body_;
-  std::vector<Element> elements_;
-  mutable std::optional<Incidences> incidences_;  // made when blocks are first asked for, by one thread
+  Patches patches_;
+  AlignedVector<double> inverse_edges_, weights_;  // as in ElementBatches
+  // Made when first asked for, by one thread.
+  mutable std::vector<Element> elements_;
+  mutable std::optional<Incidences> incidences_;
+  mutable std::uint64_t entries_of_ = 0;       // the pattern that the entries belong to
+  mutable std::vector<std::int32_t> entries_;  // [batch][node][node][lane]
 };
 
 template <class Shape>
 Tetrahedra<Shape>::Tetrahedra(const Model& model, const Body& body) : model_(model), body_(body) {
-  elements_.reserve(static_cast<std::size_t>(body.tetrahedra.count));
-  for (std::int32_t t = 0; t < body.tetrahedra.count; ++t) elements_.push_back(make_element<Shape>(model, body, t));
+  std::vector<std::int32_t> all_nodes;
+  all_nodes.reserve(nodes * static_cast<std::size_t>(element_count()));
+  for (std::int32_t t = 0; t < element_count(); ++t) {
+    const auto mine = make_nodes<Shape>(model, body, t);
+    all_nodes.insert(all_nodes.end(), mine.begin(), mine.end());
+  }
+  patches_ = Patches(all_nodes, Shape::nodes, most_in_patch, model.rest_positions, body.particles);
+  const std::span<const std::int32_t> order = patches_.elements();
+  inverse_edges_.resize(9 * order.size());
+  weights_.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t batch = k / Patches::lanes, lane = k % Patches::lanes;
+    const RestShape rest = calc_rest_shape(model, body, order[k] >= 0 ? order[k] : -1 - order[k]);
+    for (std::size_t entry = 0; entry < 9; ++entry) {
+      inverse_edges_[(9 * batch + entry) * Patches::lanes + lane] =
+          rest.inverse_edges.reshaped()[static_cast<int>(entry)];
+    }
+    weights_[k] = order[k] >= 0 ? rest.volume / Shape::points : 0.0;
+  }
 }
 
 template <class Shape>
 void Tetrahedra<Shape>::add_conservative(const VecX& x, VecX& f) const {
-  const Lame elastic = lame();
-  std::array<Mat3, batch_size> P;
-  for_batches(x, [&](std::size_t first, std::span<const Mat3> F) {
-    body_.law->calc_stress(elastic, F, {P.data(), F.size()});
-    for (std::size_t i = 0; i < F.size() / points; ++i) {
-      add_stress_forces<Shape>(elements_[first + i], of_element(P, i), f);
-    }
+  const ElementLaw law = element_law();
+  patches_.add_to(x, f, [&](const Patch& patch, const double* local_x, double* local_f) {
+    add_patch_forces(batches(patch), law, local_x, local_f);
   });
 }
 
 template <class Shape>
 double Tetrahedra<Shape>::add_damping(const VecX& x, const VecX& v, VecX& f) const {
-  const Lame viscosity = damping_lame();
-  const bool small = small_strain();
-  std::array<Mat3, points> F, rate, P;
-  double power = 0.0;
-  for (const Element& e : elements_) {
-    e.calc_gradients(x, F);
-    e.calc_gradients(v, rate);
-    for (std::size_t q = 0; q < points; ++q) {
-      P[q] = calc_kelvin_voigt_stress(viscosity, small, F[q], rate[q]);
-      power += e.weight * P[q].cwiseProduct(rate[q]).sum();
-    }
-    add_stress_forces<Shape>(e, P, f);
-  }
-  return power;
+  const ElementLaw law = element_law();
+  return patches_.add_to(x, v, f,
+                         [&](const Patch& patch, const double* local_x, const double* local_v, double* local_f) {
+                           return add_patch_damping(batches(patch), law, local_x, local_v, local_f);
+                         });
 }
 
 template <class Shape>
 double Tetrahedra<Shape>::calc_energy(const VecX& x) const {
-  const Lame elastic = lame();
-  std::array<double, batch_size> Psi;
-  double energy = 0.0;
-  for_batches(x, [&](std::size_t first, std::span<const Mat3> F) {
-    body_.law->calc_energy(elastic, F, {Psi.data(), F.size()});
-    for (std::size_t i = 0; i < F.size(); ++i) energy += elements_[first + i / points].weight * Psi[i];
-  });
-  return energy;
+  const ElementLaw law = element_law();
+  return patches_.sum(
+      x, [&](const Patch& patch, const double* local_x) { return calc_patch_energy(batches(patch), law, local_x); });
 }
 
 template <class Shape>
 void Tetrahedra<Shape>::add_couplings(std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) const {
-  for (const Element& e : elements_) {
-    for (std::size_t a = 0; a < e.nodes.size(); ++a) {
-      for (std::size_t b = a + 1; b < e.nodes.size(); ++b) pairs.emplace_back(e.nodes[a], e.nodes[b]);
+  for (std::int32_t t = 0; t < element_count(); ++t) {
+    const auto mine = make_nodes<Shape>(model_, body_, t);
+    for (std::size_t a = 0; a < nodes; ++a) {
+      for (std::size_t b = a + 1; b < nodes; ++b) pairs.emplace_back(mine[a], mine[b]);
     }
   }
 }
 
 template <class Shape>
-void Tetrahedra<Shape>::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
-  const Lame elastic = lame();
-  std::array<Mat9, batch_size> C;
-  for_batches(x, [&](std::size_t first, std::span<const Mat3> F) {
-    body_.law->calc_tangent(elastic, kind, F, {C.data(), F.size()});
-    for (std::size_t i = 0; i < F.size() / points; ++i) {
-      add_tangent_blocks<Shape>(elements_[first + i], of_element(C, i), scale, A);
+void Tetrahedra<Shape>::find_entries(const BlockMatrix& A) const {
+  if (entries_of_ == A.pattern_id()) return;
+  const std::span<const std::int32_t> order = patches_.elements();
+  entries_.resize(nodes * nodes * order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t batch = k / Patches::lanes, lane = k % Patches::lanes;
+    const auto mine = make_nodes<Shape>(model_, body_, order[k] >= 0 ? order[k] : -1 - order[k]);
+    for (std::size_t a = 0; a < nodes; ++a) {
+      for (std::size_t b = 0; b < nodes; ++b) {
+        entries_[((batch * nodes + a) * nodes + b) * Patches::lanes + lane] =
+            static_cast<std::int32_t>(A.find(mine[a], mine[b]));
+      }
     }
-  });
+  }
+  entries_of_ = A.pattern_id();
+}
+
+template <class Shape>
+template <class Add>
+void Tetrahedra<Shape>::add_to_matrix(const VecX& x, BlockMatrix& A, Add add) const {
+  find_entries(A);
+  const auto entries_of = [&](const Patch& patch) {
+    return entries_.data() + nodes * nodes * Patches::lanes * static_cast<std::size_t>(patch.first_batch);
+  };
+  patches_.for_apart(x, [&](const Patch& patch, const double* local_x) { add(patch, local_x, entries_of(patch)); });
+}
+
+template <class Shape>
+void Tetrahedra<Shape>::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
+  const ElementLaw law = element_law();
+  if (has_stiffness_in_lanes(*law.law, kind)) {
+    add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const std::int32_t* entries) {
+      add_patch_stiffness(batches(patch), law, kind, scale, local_x, entries, A.values());
+    });
+    return;
+  }
+  std::array<Mat3, points> F;
+  std::array<Mat9, points> C;
+  for (std::int32_t t = 0; t < element_count(); ++t) {
+    const Element e = element(t);
+    e.calc_gradients(x, F);
+    body_.law->calc_tangent(law.lame, kind, F, C);
+    add_tangent_blocks<Shape>(e, C, scale, A);
+  }
 }
 
 template <class Shape>
 void Tetrahedra<Shape>::add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const {
   if (!has_damping()) return;
-  const Lame viscosity = damping_lame();
-  std::array<Mat3, points> F;
-  std::array<Mat9, points> C;
-  for (const Element& e : elements_) {
-    e.calc_gradients(x, F);
-    for (std::size_t q = 0; q < points; ++q) C[q] = calc_kelvin_voigt_tangent(viscosity, small_strain(), F[q]);
-    add_tangent_blocks<Shape>(e, C, scale, A);
-  }
+  const ElementLaw law = element_law();
+  add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const std::int32_t* entries) {
+    add_patch_damping_matrix(batches(patch), law, scale, local_x, entries, A.values());
+  });
 }
 
 template <class Shape>
@@ -201,53 +238,27 @@ void Tetrahedra<Shape>::add_damping_blocks(const VecX& x, const VecX& v, double 
   });
 }
 
-template <class Shape>
-void Tetrahedra<Shape>::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& x) const {
-  const Lame elastic = lame();
-  for (std::size_t i = 0; i < elements_.size(); ++i) project(elements_[i], elastic, sweep, lambda[i], x);
-}
-
 // One constraint of compliance 1 an element, C = sqrt(2 U) with U its energy, so that C^2 / 2 = U and -C grad C = f:
-//   dlambda = (-s C - lambda - s_d grad C . (x - start)) / ((s + s_d) W + 1),   x_i += w_i grad C_i dlambda
+//   dlambda = (-s C - lambda - s_d grad C . u) / ((s + s_d) W + 1),   u_i += w_i grad C_i dlambda
 // with s = h^2, s_d = h beta, W = sum_i w_i |grad C_i|^2: equations 18 and 26 of the source times h^2. Converged sweeps
 // have lambda = -s C, and are the backward Euler step as far as grad C keeps its direction on the way there: to the
 // order (h omega)^2. Damping acts on the rate of C alone, so it takes at most what Kelvin-Voigt damping of the same
 // beta does near the rest shape. An element whose move would not be finite stays. Source: M. Macklin, M. Mueller, N.
 // Chentanez, XPBD: Position-based simulation of compliant constrained dynamics, Motion in Games 2016.
 template <class Shape>
-void Tetrahedra<Shape>::project(const Element& e, Lame elastic, const ConstraintSweep& sweep, double& lambda,
-                                VecX& x) const {
-  std::array<Mat3, points> F, P;
-  std::array<double, points> Psi;
-  e.calc_gradients(x, F);
-  body_.law->calc_energy(elastic, F, Psi);
-  double U = 0.0;
-  for (const double density : Psi) U += e.weight * density;
-  if (!(U > 0.0)) return;
-  body_.law->calc_stress(elastic, F, P);
-  const double C = std::sqrt(2.0 * U);
-  const typename Element::NodeVectors grad_C = e.calc_node_slopes(P) / C;
-
-  const double s = sweep.h * sweep.h;
-  const double s_d = sweep.h * body_.stiffness_damping;
-  typename Element::NodeVectors move;
-  double W = 0.0, change = 0.0;
-  for (int a = 0; a < Shape::nodes; ++a) {
-    const std::int32_t node = e.nodes[static_cast<std::size_t>(a)];
-    move.col(a) = block3(sweep.inverse_masses, node).cwiseProduct(grad_C.col(a));
-    W += move.col(a).dot(grad_C.col(a));
-    if (s_d > 0.0) change += grad_C.col(a).dot(block3(x, node) - block3(sweep.start, node));
-  }
-  const double dlambda = (-s * C - lambda - s_d * change) / ((s + s_d) * W + 1.0);
-  move *= dlambda;
-  if (!std::isfinite(dlambda) || !move.allFinite()) return;
-  lambda += dlambda;
-  for (int a = 0; a < Shape::nodes; ++a) block3(x, e.nodes[static_cast<std::size_t>(a)]) += move.col(a);
+void Tetrahedra<Shape>::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
+  const ElementLaw law = element_law();
+  patches_.sweep(sweep.start, sweep.inverse_masses, u,
+                 [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
+                   double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
+                   sweep_patch_constraints(batches(patch), law,
+                                           {sweep.h, body_.stiffness_damping, start, inverse_masses, mine, local_u});
+                 });
 }
 
 template <class Shape>
 ModeBound Tetrahedra<Shape>::calc_mode_bound() const {
-  const double omega_squared = calc_omega_squared_bound(elements_, lame(), model_);
+  const double omega_squared = calc_omega_squared_bound<Shape>(model_, body_, lame());
   const double damping_rate = body_.stiffness_damping * omega_squared;
   return {omega_squared, damping_rate, damping_rate};
 }

@@ -24,7 +24,8 @@ class Xpbd final : public Integrator {
   }
 
  private:
-  // Where the particles go without constraints, in x_; what damps against the resting world adds to their inertia.
+  // Where the particles go without constraints, u_ from where they are; what damps against the resting world adds to
+  // their inertia.
   void predict(const System& system, double h, const State& state) {
     system.calc_constant(force_);
     weights_ = system.inverse_masses();
@@ -43,8 +44,12 @@ class Xpbd final : public Integrator {
       block3(weights_, particle) = block3(weights_, particle).cwiseProduct(ratio);
       block3(velocity_, particle) = block3(velocity_, particle).cwiseProduct(ratio);
     }
-    x_ = state.positions + h * (velocity_ + h * weights_.cwiseProduct(force_)).cwiseProduct(system.free());
-    system.prescribe(state.time + h, x_, velocity_);
+    u_ = h * (velocity_ + h * weights_.cwiseProduct(force_)).cwiseProduct(system.free());
+    if (system.has_handles()) {
+      x_ = state.positions;
+      system.prescribe(state.time + h, x_, velocity_);
+      u_ += (x_ - state.positions).cwiseProduct(VecX::Ones(u_.size()) - system.free());
+    }
     lambdas_.resize(system.active_forces().size());
     for (std::size_t k = 0; k < lambdas_.size(); ++k) {
       lambdas_[k].assign(static_cast<std::size_t>(system.active_forces()[k]->constraint_count()), 0.0);
@@ -54,12 +59,11 @@ class Xpbd final : public Integrator {
   void sweep(const System& system, double h, const VecX& start) {
     const ConstraintSweep sweep{h, start, weights_};
     for (std::size_t k = 0; k < lambdas_.size(); ++k) {
-      if (!lambdas_[k].empty()) system.active_forces()[k]->sweep_constraints(sweep, lambdas_[k], x_);
+      if (!lambdas_[k].empty()) system.active_forces()[k]->sweep_constraints(sweep, lambdas_[k], u_);
     }
   }
 
   void finish(const System& system, double h, State& state, StepStatistics& statistics) {
-    u_ = x_ - state.positions;
     statistics.iterations += settings_.iterations;
     measure_residual(system, h, state, statistics);
     velocity_ = u_ / h;
@@ -68,7 +72,7 @@ class Xpbd final : public Integrator {
         system.free().cwiseProduct(system.masses().cwiseProduct(velocity_ - state.velocities) / h - potential_.force());
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
     VelocityChange change(system, h, force_, state.velocities, statistics);
-    state.positions = x_;
+    state.positions += u_;
     state.velocities = velocity_;
     system.prescribe(state.time + h, state.positions, state.velocities);
     change.close(state.velocities);

@@ -30,8 +30,6 @@ void calc_stress(Lame lame, std::span<const Mat3> F, std::span<Mat3> P) {
 Mat9 calc_tangent_of(Lame lame, Tangent kind, const Mat3& F) {
   const Polar polar = calc_polar(F);
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(polar.S);
-  const double trace = polar.S.trace();
-  const double factor = lame.lambda * (trace - 3.0) - 2.0 * lame.mu;
 
   Mat9 tangent = 2.0 * lame.mu * Mat9::Identity();
   const Eigen::Matrix<double, 9, 1> q = polar.Q.reshaped();
@@ -39,9 +37,8 @@ Mat9 calc_tangent_of(Lame lame, Tangent kind, const Mat3& F) {
   for (int k = 0; k < 3; ++k) {
     const Mat3 T = polar.Q * make_cross_matrix(eigen.eigenvectors().col(k));
     const Eigen::Matrix<double, 9, 1> t = T.reshaped();
-    double c = factor / std::max(trace - eigen.eigenvalues()[k], smallest_pair_sum);
-    if (kind == Tangent::positive_semidefinite) c = std::max(c, -lame.mu);
-    tangent += c * t * t.transpose();
+    const bool clamped = kind == Tangent::positive_semidefinite;
+    tangent += calc_twist(lame, clamped, eigen.eigenvalues(), k) * t * t.transpose();
   }
   return tangent;
 }
@@ -52,8 +49,18 @@ void calc_tangent(Lame lame, Tangent kind, std::span<const Mat3> F, std::span<Ma
 
 }  // namespace
 
-const Law corotational_law{"corotational", "strain in the turned frame of each element, exact rotation",
-                           false,          calc_energy,
-                           calc_stress,    calc_tangent};
+double calc_twist(Lame lame, bool clamped, const Vec3& s, int k) {
+  const double factor = lame.lambda * (s.sum() - 3.0) - 2.0 * lame.mu;
+  const double c = factor / std::max(s.sum() - s[k], smallest_pair_sum);
+  return clamped ? std::max(c, -lame.mu) : c;
+}
+
+const Law corotational_law{"corotational",
+                           "strain in the turned frame of each element, exact rotation",
+                           false,
+                           calc_energy,
+                           calc_stress,
+                           calc_tangent,
+                           LawKernel::corotational};
 
 }  // namespace flexcast

@@ -8,4 +8,7 @@
 
 namespace flexcast {
 extern const Law corotational_law;
-}
+
+// c_k of the tangent's twist mode about the k-th axis, from the signed stretches, Pa; clamped: c_k >= -mu.
+double calc_twist(Lame lame, bool clamped, const Vec3& s, int k);
+}  // namespace flexcast

@@ -21,6 +21,9 @@ Lame calc_lame(double young, double poisson);
 // Which tangent a caller can use: exact ones may be indefinite away from rest.
 enum class Tangent { exact, positive_semidefinite };
 
+// The code in lanes that a law has, if any: see the files *-inl.h.
+enum class LawKernel { none, linear, corotational, st_venant_kirchhoff, neo_hookean };
+
 struct Law {
   std::string_view name;     // as in scene files
   std::string_view summary;  // one line for people
@@ -31,6 +34,8 @@ struct Law {
   void (*calc_stress)(Lame lame, std::span<const Mat3> F, std::span<Mat3> P);
   // dP/dF in Pa: entry (i + 3 j, k + 3 l) is dP_ij / dF_kl (columns of F one below the other). Symmetric.
   void (*calc_tangent)(Lame lame, Tangent kind, std::span<const Mat3> F, std::span<Mat9> dPdF);
+  // The same functions in lanes, for speed; none: those above are called for every lane.
+  LawKernel kernel = LawKernel::none;
 };
 
 // The table: every law, in the order of the documentation.

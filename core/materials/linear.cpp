@@ -31,6 +31,7 @@ void calc_tangent(Lame lame, Tangent, std::span<const Mat3> F, std::span<Mat9> d
 
 }  // namespace
 
-const Law linear_law{"linear", "small strain, no rotations", true, calc_energy, calc_stress, calc_tangent};
+const Law linear_law{"linear",         "small strain, no rotations", true, calc_energy, calc_stress, calc_tangent,
+                     LawKernel::linear};
 
 }  // namespace flexcast

@@ -96,8 +96,12 @@ void calc_tangent(Lame lame, Tangent kind, std::span<const Mat3> F, std::span<Ma
 
 }  // namespace
 
-const Law neo_hookean_law{"neo_hookean", "stable neo-Hookean: large strains, recovers from inversion",
-                          false,         calc_energy,
-                          calc_stress,   calc_tangent};
+const Law neo_hookean_law{"neo_hookean",
+                          "stable neo-Hookean: large strains, recovers from inversion",
+                          false,
+                          calc_energy,
+                          calc_stress,
+                          calc_tangent,
+                          LawKernel::neo_hookean};
 
 }  // namespace flexcast

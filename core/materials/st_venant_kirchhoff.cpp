@@ -65,6 +65,7 @@ const Law st_venant_kirchhoff_law{"st_venant_kirchhoff",
                                   false,
                                   calc_energy,
                                   calc_stress,
-                                  calc_tangent};
+                                  calc_tangent,
+                                  LawKernel::st_venant_kirchhoff};
 
 }  // namespace flexcast

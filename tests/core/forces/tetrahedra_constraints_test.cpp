@@ -31,13 +31,13 @@ const Mesh one_tet{{{0, 0, 0}, {1.1, 0.1, 0}, {-0.1, 0.9, 0.2}, {0.1, 0, 1.2}}, 
 
 // After a number of sweeps that start at x~.
 VecX sweep_from(const System& system, double h, const VecX& predicted, int sweeps, const VecX& start) {
-  VecX x = predicted;
+  VecX u = predicted - start;
   const ConstraintSweep sweep{h, start, system.inverse_masses()};
   for (const Force* force : system.active_forces()) {
     std::vector<double> lambda(static_cast<std::size_t>(force->constraint_count()), 0.0);
-    for (int k = 0; k < sweeps; ++k) force->sweep_constraints(sweep, lambda, x);
+    for (int k = 0; k < sweeps; ++k) force->sweep_constraints(sweep, lambda, u);
   }
-  return x;
+  return start + u;
 }
 
 // Newton's method on M (x - x~) + h^2 grad U = 0.

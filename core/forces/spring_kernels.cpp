@@ -1,0 +1,148 @@
+#include "core/forces/spring_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/forces/spring_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include "core/base/simd-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace flexcast {
+namespace HWY_NAMESPACE {
+
+struct SpringLanes {
+  const std::uint16_t* places;
+  Real rest_length, inverse_rest_length;
+
+  HWY_INLINE SpringLanes(const SpringBatches& springs, int b, int part)
+      : places(springs.places + static_cast<std::int64_t>(b) * 2 * batch_lanes + part),
+        rest_length(load(springs.rest_lengths + static_cast<std::int64_t>(b) * batch_lanes + part)),
+        inverse_rest_length(load(springs.inverse_rest_lengths + static_cast<std::int64_t>(b) * batch_lanes + part)) {}
+
+  HWY_INLINE Vec calc_difference(const double* vectors) const {
+    return load_nodes(vectors, places + batch_lanes) - load_nodes(vectors, places);
+  }
+  HWY_INLINE void add(const Vec& force, double* f) const {
+    const Vec forces[2] = {force, Real(-1.0) * force};
+    add_to_nodes(forces, places, f);
+  }
+};
+
+struct Direction {
+  Vec n;
+  Real l;
+};
+
+// spring.h's bounds: squares of shorter and longer lengths leave the range of a double. Such lanes are scaled first, by
+// a power of two; coincident ends have no direction.
+HWY_INLINE Direction calc_direction(Vec d) {
+  Real squared = dot(d, d), scale = 1.0;
+  const auto usual = hn::And(hn::Gt(squared.v, Real(1e-280).v), hn::Lt(squared.v, Real(1e280).v));
+  if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), usual))) {
+    constexpr double huge = 0x1p600;
+    const Real size = max(max(hn::Abs(d.x.v), hn::Abs(d.y.v)), Real(hn::Abs(d.z.v)));
+    const Real factor = hn::IfThenElse(hn::Lt(size.v, Real(1.0).v), Real(huge).v, Real(1.0 / huge).v);
+    scale = hn::IfThenElse(usual, Real(1.0).v, factor.v);
+    d = scale * d;
+    squared = dot(d, d);
+  }
+  const Real l = sqrt(squared);
+  const Real inverse = hn::IfThenElseZero(hn::Gt(l.v, hn::Zero(Lanes())), (Real(1.0) / l).v);
+  return {inverse * d, l / scale};
+}
+
+void add_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* f) {
+  for (int b = 0; b < springs.count; ++b) {
+    for (int part = 0; part < batch_lanes; part += lane_count) {
+      const SpringLanes spring(springs, b, part);
+      const Direction direction = calc_direction(spring.calc_difference(x));
+      const Real stretch = (direction.l - spring.rest_length) * spring.inverse_rest_length;
+      spring.add((Real(k_s) * stretch) * direction.n, f);
+    }
+  }
+}
+
+double add_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
+                                double* f) {
+  LaneSums power;
+  for (int b = 0; b < springs.count; ++b) {
+    for (int part = 0; part < batch_lanes; part += lane_count) {
+      const SpringLanes spring(springs, b, part);
+      const Direction direction = calc_direction(spring.calc_difference(x));
+      const Real rate = dot(spring.calc_difference(v), direction.n);
+      const Real stretch = (direction.l - spring.rest_length) * spring.inverse_rest_length;
+      const Real damping = Real(k_d) * rate * spring.inverse_rest_length;
+      power.add(part, damping * rate);
+      spring.add(fma(Real(k_s), stretch, damping) * direction.n, f);
+    }
+  }
+  return power.total();
+}
+
+double calc_spring_energy(const SpringBatches& springs, double k_s, const double* x) {
+  LaneSums energy;
+  for (int b = 0; b < springs.count; ++b) {
+    for (int part = 0; part < batch_lanes; part += lane_count) {
+      const SpringLanes spring(springs, b, part);
+      const Real extension = calc_direction(spring.calc_difference(x)).l - spring.rest_length;
+      energy.add(part, Real(0.5 * k_s) * spring.inverse_rest_length * extension * extension);
+    }
+  }
+  return energy.total();
+}
+
+void sweep_spring_constraints(const SpringBatches& springs, const SpringSweep& sweep) {
+  for (int b = 0; b < springs.count; ++b) {
+    for (int part = 0; part < batch_lanes; part += lane_count) {
+      const SpringLanes spring(springs, b, part);
+      const Vec moved = spring.calc_difference(sweep.u);
+      const Direction direction = calc_direction(spring.calc_difference(sweep.start) + moved);
+      const Vec& n = direction.n;
+      const Vec w_p = load_nodes(sweep.inverse_masses, spring.places);
+      const Vec w_q = load_nodes(sweep.inverse_masses, spring.places + batch_lanes);
+      const Vec move_p{w_p.x * n.x, w_p.y * n.y, w_p.z * n.z}, move_q{w_q.x * n.x, w_q.y * n.y, w_q.z * n.z};
+      const Real s = Real(sweep.h * sweep.h * sweep.k_s) * spring.inverse_rest_length;
+      const Real s_d = Real(sweep.h * sweep.k_d) * spring.inverse_rest_length;
+      const Real W = dot(n, move_p) + dot(n, move_q);
+      double* lambdas = sweep.lambda + static_cast<std::int64_t>(b) * batch_lanes + part;
+      const Real lambda = load_unaligned(lambdas);
+      const Real extension = direction.l - spring.rest_length;
+      const Real change = (-(s * extension) - lambda - s_d * dot(n, moved)) / fma(s + s_d, W, Real(1.0));
+      store_unaligned(lambda + change, lambdas);
+      const Vec moves[2] = {(-change) * move_p, change * move_q};
+      add_to_nodes(moves, spring.places, sweep.u);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace flexcast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flexcast {
+
+HWY_EXPORT(add_spring_forces);
+HWY_EXPORT(add_damped_spring_forces);
+HWY_EXPORT(calc_spring_energy);
+HWY_EXPORT(sweep_spring_constraints);
+
+void add_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* f) {
+  HWY_DYNAMIC_DISPATCH(add_spring_forces)(springs, k_s, x, f);
+}
+
+double add_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
+                                double* f) {
+  return HWY_DYNAMIC_DISPATCH(add_damped_spring_forces)(springs, k_s, k_d, x, v, f);
+}
+
+double calc_spring_energy(const SpringBatches& springs, double k_s, const double* x) {
+  return HWY_DYNAMIC_DISPATCH(calc_spring_energy)(springs, k_s, x);
+}
+
+void sweep_spring_constraints(const SpringBatches& springs, const SpringSweep& sweep) {
+  HWY_DYNAMIC_DISPATCH(sweep_spring_constraints)(springs, sweep);
+}
+
+}  // namespace flexcast
+#endif
