@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "core/base/parallel.h"
 #include "server/options.h"
 #include "server/progress_line.h"
 #include "server/server.h"
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
   const Options& options = std::get<Options>(parsed);
   const sigset_t signals = block_end_signals();
   set_up_log();
+  set_thread_count(options.threads);
 
   auto started = Server::start(options);
   if (!started) {

@@ -69,7 +69,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_flag("--exit", options.exit, "end when --until is reached");
   app.add_option("--checkpoints", options.checkpoints,
                  "folder for checkpoints, made when needed; default: checkpoints; each is DIR/WORLD/NAME.checkpoint");
-  app.add_option("--threads", options.threads, "threads of the engine; any number gives the same bits (one is used)")
+  app.add_option("--threads", options.threads, "threads of the engine; any number gives the same bits; default 1")
       ->check(CLI::Range(1, 1024));
   app.add_option("--set", options.overrides, "PATH=VALUE over what the scene file says; may be repeated")
       ->expected(1)

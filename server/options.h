@@ -18,7 +18,7 @@ struct Options {
   std::optional<double> until;              // s
   bool exit = false;                        // end when `until` is reached
   std::string checkpoints = "checkpoints";  // folder of all worlds' checkpoints
-  int threads = 1;                          // of the engine; any number gives the same bits, one is used today
+  int threads = 1;                          // of the engine; any number gives the same bits
   std::vector<std::string> overrides;
 };
 
