@@ -28,6 +28,10 @@ int main(int argc, char** argv) {
     modes->stop = &stop;
     return flexcast::modes_verb(*modes, std::cout, std::cerr);
   }
+  if (auto* bench = std::get_if<flexcast::BenchOptions>(&command)) {
+    bench->stop = &stop;
+    return flexcast::bench_verb(*bench, std::cout, std::cerr);
+  }
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;
   options.progress = isatty(STDERR_FILENO) != 0;

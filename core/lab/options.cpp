@@ -36,6 +36,22 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
       ->check(check_assignment);
 }
 
+void add_threads(CLI::App& verb, int& threads) {
+  verb.add_option("--threads", threads, "Threads of the engine, default 1; any number gives the same bits")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_bench(CLI::App& app, BenchOptions& options) {
+  CLI::App* bench = app.add_subcommand(
+      "bench", "Time a scene's forces, tangent, conjugate gradients and first 30 steps; nanoseconds an element.");
+  bench->footer("Example:\n  flexcast-lab bench server/scenes/cantilever.toml --threads 2 --set beam.law=neo_hookean");
+  bench->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  add_threads(*bench, options.threads);
+  add_overrides(*bench, options.overrides);
+  bench->add_flag("--json", options.json, "Print JSON");
+}
+
 void add_modes(CLI::App& app, ModesOptions& options) {
   CLI::App* modes =
       app.add_subcommand("modes", "Print natural frequencies of a scene, and the explicit step it allows.");
@@ -60,9 +76,7 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->excludes(until);
   add_overrides(*run, options.overrides);
   run->add_flag("--static", options.at_equilibrium, "Solve for equilibrium instead of stepping; handles at their end");
-  run->add_option("--threads", options.threads, "Threads of the engine; any number gives the same bits (one is used)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+  add_threads(*run, options.threads);
   run->add_option("--csv", options.csv, "File for one row per frame, the initial state first")->type_name("FILE");
   run->add_option("--positions", options.positions, "File for the final positions, one `x y z` a line")
       ->type_name("FILE");
@@ -78,8 +92,10 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   app.require_subcommand(1);
   RunOptions run;
   ModesOptions modes;
+  BenchOptions bench;
   add_run(app, run);
   add_modes(app, modes);
+  add_bench(app, bench);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -88,6 +104,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
     return CommandLineEnd{answered ? out.str() : log.str(), answered ? 0 : 2};
   }
   if (app.got_subcommand("modes")) return modes;
+  if (app.got_subcommand("bench")) return bench;
   return run;
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/lab/bench.h"
 #include "core/lab/modes.h"
 #include "core/lab/run.h"
 
@@ -17,7 +18,7 @@ struct CommandLineEnd {
 };
 
 // One alternative a verb.
-using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions>;
+using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <ostream>
 
+#include "core/base/parallel.h"
 #include "core/lab/frame_table.h"
 #include "core/lab/output_file.h"
 #include "core/lab/progress.h"
@@ -124,6 +125,7 @@ Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
 }
 
 int run_verb(const RunOptions& options, std::ostream& out, std::ostream& log) {
+  set_thread_count(options.threads);
   const auto run = run_scene(options, log);
   if (!run) {
     log << "flexcast-lab: " << run.error().message << std::endl;

@@ -21,7 +21,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> csv;        // a row per frame
   std::optional<std::filesystem::path> positions;  // the final ones
   bool at_equilibrium = false;                     // solve for equilibrium instead of stepping
-  int threads = 1;                                 // any number gives the same bits; one is used today
+  int threads = 1;                                 // of the engine; any number gives the same bits
   bool json = false;
   bool progress = false;                    // on the log while running
   const std::atomic<bool>* stop = nullptr;  // ends the run early when it becomes true

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/integrators/integrator.h"
+#include "core/lab/bench_report.h"
 #include "core/materials/law.h"
 #include "core/scene/keys.h"
 #include "core/sim/parameters.h"
@@ -55,6 +56,14 @@ TEST(Readme, ListsEveryIntegratorWithItsOrder) {
                              " |";
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
+}
+
+TEST(Readme, NamesEveryFigureOfABenchmark) {
+  const std::string text = readme();
+  Bench bench;
+  bench.elements = bench.particles = 1;
+  for (const auto& [key, value] : make_bench_json(bench).items())
+    EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }
 
 TEST(Readme, NamesEveryLaw) {
