@@ -62,8 +62,8 @@ TEST(Readme, NamesEveryFigureOfABenchmark) {
   const std::string text = readme();
   Bench bench;
   bench.elements = bench.particles = 1;
-  for (const auto& [key, value] : make_bench_json(bench).items())
-    EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
+  const nlohmann::ordered_json json = make_bench_json(bench);
+  for (const auto& [key, value] : json.items()) EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }
 
 TEST(Readme, NamesEveryLaw) {
