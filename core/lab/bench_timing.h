@@ -8,9 +8,9 @@ namespace flexcast {
 
 struct TurnSettings {
   double sample = 1e-3;  // s: a shorter task is repeated until a sample lasts that long
-  int turns = 21;        // at most
+  int turns = 61;        // at most
   int least_turns = 5;
-  double budget = 10.0;  // s: no further turn begins once this has passed, but for the least number
+  double budget = 5.0;  // s: no further turn begins once this has passed, but for the least number
 };
 
 class Turns {

@@ -1,0 +1,32 @@
+// Steps from the start of a scene; items are elements.
+#include <benchmark/benchmark.h>
+
+#include "core/lab/bench_loops.h"
+#include "tests/bench/microbench.h"
+#include "tests/bench/scenes.h"
+#include "tests/bench/variants.h"
+
+namespace flexcast::bench {
+
+void register_steps() {
+  for (const NamedScene& scene : make_step_scenes(false)) {
+    for (const NamedVariant& variant : make_named_variants()) {
+      const std::string name = scene.name + "/step/" + variant.name;
+      benchmark::RegisterBenchmark(name.c_str(),
+                                   [=](benchmark::State& state) {
+                                     variant.take();
+                                     const std::unique_ptr<Simulation> simulation = make_simulation(scene.text);
+                                     simulation->step();  // makes what later ones keep
+                                     for ([[maybe_unused]] auto turn : state) {
+                                       if (!simulation->step())
+                                         return state.SkipWithError(simulation->failure()->text().c_str());
+                                     }
+                                     state.SetItemsProcessed(state.iterations() * count_elements(simulation->model()));
+                                   })
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+    }
+  }
+}
+
+}  // namespace flexcast::bench
