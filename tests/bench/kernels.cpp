@@ -29,16 +29,25 @@ Loaded& load(const NamedScene& scene) {
 
 struct Kernel {
   const char* name;
-  void (*run)(Kernels&);
+  int (*run)(Kernels&);  // returns linear iterations
 };
 
 constexpr Kernel kernel_table[] = {
-    {"force", [](Kernels& kernels) { kernels.run_force(); }},
-    {"plain_force", [](Kernels& kernels) { kernels.run_scalar_force(); }},
-    {"copy", [](Kernels& kernels) { kernels.run_copy(); }},
-    {"tangent", [](Kernels& kernels) { kernels.run_tangent(); }},
-    {"solve", [](Kernels& kernels) { kernels.run_long_solve(); }},
+    {"force", [](Kernels& kernels) { return kernels.run_force(), 0; }},
+    {"plain_force", [](Kernels& kernels) { return kernels.run_scalar_force(), 0; }},
+    {"copy", [](Kernels& kernels) { return kernels.run_copy(), 0; }},
+    {"tangent", [](Kernels& kernels) { return kernels.run_tangent(), 0; }},
+    {"solve", [](Kernels& kernels) { return kernels.run_long_solve(); }},
 };
+
+void run(benchmark::State& state, const NamedScene& scene, const Kernel& kernel, const NamedVariant& variant) {
+  Loaded& loaded = load(scene);
+  variant.take();
+  double linear_iterations = 0.0;
+  for ([[maybe_unused]] auto turn : state) linear_iterations += kernel.run(loaded.kernels);
+  state.counters["linear_iterations"] = {linear_iterations, benchmark::Counter::kAvgIterations};
+  state.SetItemsProcessed(state.iterations() * count_elements(loaded.simulation->model()));
+}
 
 }  // namespace
 
@@ -47,12 +56,8 @@ void register_kernels() {
     for (const Kernel& kernel : kernel_table) {
       for (const NamedVariant& variant : make_named_variants()) {
         const std::string name = scene.name + "/" + kernel.name + "/" + variant.name;
-        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-          Loaded& loaded = load(scene);
-          variant.take();
-          for ([[maybe_unused]] auto turn : state) kernel.run(loaded.kernels);
-          state.SetItemsProcessed(state.iterations() * count_elements(loaded.simulation->model()));
-        })->UseRealTime();
+        const auto body = [=](benchmark::State& state) { run(state, scene, kernel, variant); };
+        benchmark::RegisterBenchmark(name.c_str(), body)->UseRealTime();
       }
     }
   }

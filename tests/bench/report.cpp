@@ -38,7 +38,11 @@ int main(int argc, char** argv) {
   app.add_option("--budget", settings.budget, "Seconds a scene after which no further turn begins; default 10")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--list", list, "Print the names of the scenes alone");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   const std::regex pattern(only);
   const auto is_wanted = [&](const NamedScene& scene) {
