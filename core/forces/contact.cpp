@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
+
 namespace flexcast {
 namespace {
 
@@ -24,12 +26,11 @@ Touch find_touch_of_box(const Obstacle& box, const Vec3& x) {
   return touch;
 }
 
-Touch find_touch(const Obstacle& obstacle, const Vec3& x) {
+// `normal`: the plane's, of unit length.
+Touch find_touch(const Obstacle& obstacle, const Vec3& normal, const Vec3& x) {
   switch (obstacle.shape) {
-    case Obstacle::Shape::plane: {
-      const Vec3 n = obstacle.normal.stableNormalized();
-      return {-n.dot(x - obstacle.point), n, 0.0};
-    }
+    case Obstacle::Shape::plane:
+      return {-normal.dot(x - obstacle.point), normal, 0.0};
     case Obstacle::Shape::sphere: {
       const Vec3 d = x - obstacle.center;
       const double distance = d.norm();
@@ -59,18 +60,31 @@ class Contact final : public Force {
     for (double& rate : chosen_rates_) {
       if (rate == 0.0) rate = 1e4;
     }
+    normals_.clear();
+    for (const Obstacle& obstacle : model_.obstacles) normals_.push_back(obstacle.normal.stableNormalized());
   }
 
   void add_conservative(const VecX& x, VecX& f) const override {
-    for_touches(x, [&](std::int32_t particle, const Touch& touch, double k, const Obstacle&) {
-      block3(f, particle) += k * touch.depth * touch.normal;
+    for_bodies([&](const Body& body, double rate) {
+      parallel_for(body.particles.count, grain, [&](std::int64_t first, std::int64_t end) {
+        for_touches_in(body, rate, first, end, x,
+                       [&](std::int32_t particle, const Touch& touch, double k, const Obstacle&) {
+                         block3(f, particle) += k * touch.depth * touch.normal;
+                       });
+      });
     });
   }
 
   double calc_energy(const VecX& x) const override {
     double energy = 0.0;
-    for_touches(x, [&](std::int32_t, const Touch& touch, double k, const Obstacle&) {
-      energy += 0.5 * k * touch.depth * touch.depth;
+    for_bodies([&](const Body& body, double rate) {
+      energy += parallel_sum(body.particles.count, grain, partial_, [&](std::int64_t first, std::int64_t end) {
+        double sum = 0.0;
+        for_touches_in(body, rate, first, end, x, [&](std::int32_t, const Touch& touch, double k, const Obstacle&) {
+          sum += 0.5 * k * touch.depth * touch.depth;
+        });
+        return sum;
+      });
     });
     return energy;
   }
@@ -106,6 +120,7 @@ class Contact final : public Force {
                        [](const auto& o) { return o.friction > 0.0; });
   }
   void add_friction_points(const VecX& x, std::vector<FrictionPoint>& points) const override {
+    points.reserve(static_cast<std::size_t>(model_.particle_count()));  // so that touching more allocates no more
     for_touches(x, [&](std::int32_t particle, const Touch& touch, double k, const Obstacle& obstacle) {
       const double limit = obstacle.friction * k * touch.depth;
       if (limit > 0.0) points.push_back({particle, touch.normal, limit});
@@ -141,20 +156,31 @@ class Contact final : public Force {
   }
   template <class Visit>
   void for_touches_of(std::int32_t particle, double rate, const VecX& x, Visit visit) const {
-    for (const Obstacle& obstacle : model_.obstacles) {
-      const Touch touch = find_touch(obstacle, block3(x, particle));
+    for (std::size_t o = 0; o < model_.obstacles.size(); ++o) {
+      const Obstacle& obstacle = model_.obstacles[o];
+      const Touch touch = find_touch(obstacle, normals_[o], block3(x, particle));
       if (touch.depth > 0.0) visit(particle, touch, stiffness(obstacle, rate, particle), obstacle);
+    }
+  }
+  // Of the body's particles [first, end).
+  template <class Visit>
+  void for_touches_in(const Body& body, double rate, std::int64_t first, std::int64_t end, const VecX& x,
+                      Visit visit) const {
+    for (std::int64_t i = first; i < end; ++i) {
+      for_touches_of(body.particles.first + static_cast<std::int32_t>(i), rate, x, visit);
     }
   }
   template <class Visit>
   void for_touches(const VecX& x, Visit visit) const {
-    for_bodies([&](const Body& body, double rate) {
-      for (std::int32_t i = body.particles.first; i < body.particles.end(); ++i) for_touches_of(i, rate, x, visit);
-    });
+    for_bodies([&](const Body& body, double rate) { for_touches_in(body, rate, 0, body.particles.count, x, visit); });
   }
 
+  static constexpr std::int64_t grain = 1024;  // particles
+
   const Model& model_;
-  std::vector<double> chosen_rates_;  // 1/s^2, per body: stiffness over mass
+  std::vector<double> chosen_rates_;     // 1/s^2, per body: stiffness over mass
+  std::vector<Vec3> normals_;            // per obstacle, of unit length; of use for planes
+  mutable std::vector<double> partial_;  // J, of blocks
 };
 
 void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
@@ -166,7 +192,7 @@ void Contact::sweep_constraints(const ConstraintSweep& sweep, std::span<double> 
         const std::size_t first = 4 * (static_cast<std::size_t>(i) * count + o);
         double& multiplier = lambda[first];
         Eigen::Map<Vec3> rubbed(&lambda[first + 1]);
-        const Touch touch = find_touch(model_.obstacles[o], block3(sweep.start, i) + block3(u, i));
+        const Touch touch = find_touch(model_.obstacles[o], normals_[o], block3(sweep.start, i) + block3(u, i));
         if (!(touch.depth > 0.0) && multiplier == 0.0) continue;
         const double s = sweep.h * sweep.h * stiffness(model_.obstacles[o], rate, i);
         const Vec3 wn = w.cwiseProduct(touch.normal);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.h"
+
 namespace flexcast {
 namespace {
 
@@ -14,13 +16,15 @@ class Drag final : public Force {
   void add_conservative(const VecX&, VecX&) const override {}
 
   double add_damping(const VecX&, const VecX& v, VecX& f) const override {
-    double power = 0.0;
-    for (std::int64_t i = body_.particles.first; i < body_.particles.end(); ++i) {
-      const Vec3 force = coefficient(i) * block3(v, i);
-      block3(f, i) -= force;
-      power += force.dot(block3(v, i));
-    }
-    return power;
+    return parallel_sum(body_.particles.count, 1024, partial_, [&](std::int64_t first, std::int64_t end) {
+      double power = 0.0;
+      for (std::int64_t i = body_.particles.first + first; i < body_.particles.first + end; ++i) {
+        const Vec3 force = coefficient(i) * block3(v, i);
+        block3(f, i) -= force;
+        power += force.dot(block3(v, i));
+      }
+      return power;
+    });
   }
 
   void add_damping_matrix(const VecX&, double scale, BlockMatrix& A) const override {
@@ -51,6 +55,7 @@ class Drag final : public Force {
 
   const Model& model_;
   const Body& body_;
+  mutable std::vector<double> partial_;  // W, of blocks
 };
 
 }  // namespace

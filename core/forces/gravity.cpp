@@ -1,5 +1,7 @@
 #include "core/forces/gravity.h"
 
+#include "core/base/parallel.h"
+
 namespace flexcast {
 namespace {
 
@@ -18,13 +20,16 @@ class Gravity final : public Force {
 
   double calc_energy(const VecX& x) const override {
     const Vec3 g = model_.gravity;
-    double energy = 0.0;
-    for (std::int64_t i = 0; i < model_.masses.size(); ++i) energy -= model_.masses[i] * g.dot(block3(x, i));
-    return energy;
+    return parallel_sum(model_.masses.size(), 1024, partial_, [&](std::int64_t first, std::int64_t end) {
+      double energy = 0.0;
+      for (std::int64_t i = first; i < end; ++i) energy -= model_.masses[i] * g.dot(block3(x, i));
+      return energy;
+    });
   }
 
  private:
   const Model& model_;
+  mutable std::vector<double> partial_;  // J, of blocks
 };
 
 }  // namespace

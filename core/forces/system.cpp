@@ -3,10 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/forces/force_table.h"
 #include "core/forces/friction.h"
 
 namespace flexcast {
+namespace {
+
+constexpr std::int64_t copy_grain = 1 << 14;  // numbers
+
+void assign(const VecX& from, VecX& to) {
+  to.resize(from.size());
+  parallel_for(from.size(), copy_grain, [&](std::int64_t first, std::int64_t end) {
+    std::copy(from.data() + first, from.data() + end, to.data() + first);
+  });
+}
+
+}  // namespace
 
 System::System(const Model& model) : model_(model) {
   for (const ForceRow& row : force_rows()) row.make(model, forces_);
@@ -16,8 +29,12 @@ System::System(const Model& model) : model_(model) {
 }
 
 void System::refresh() {
-  active_.clear();
-  has_damping_ = has_friction_ = false;
+  refresh_inertia();
+  refresh_forces();
+  stiffness_norm_.reset();
+}
+
+void System::refresh_inertia() {
   const std::int64_t n = model_.particle_count();
   dof_masses_.resize(3 * n);
   inverse_masses_.resize(3 * n);
@@ -30,7 +47,9 @@ void System::refresh() {
     for (const std::int32_t particle : handle.particles) block3(free_, particle).setZero();
   }
   inverse_masses_ = free_.cwiseQuotient(dof_masses_);
+}
 
+void System::refresh_forces() {
   if (!model_.obstacles.empty()) {
     std::vector<ModeBound> elastic(model_.bodies.size());
     for (const auto& force : forces_) {
@@ -39,31 +58,39 @@ void System::refresh() {
     }
     for (const auto& force : forces_) force->follow_parameters(elastic);
   }
+  active_.clear();
+  varying_.clear();
+  has_damping_ = has_friction_ = false;
+  constant_.setZero(dofs());
   for (const auto& force : forces_) {
     if (!force->is_active()) continue;
     active_.push_back(force.get());
     has_damping_ = has_damping_ || force->has_damping();
     has_friction_ = has_friction_ || force->has_friction();
+    if (force->is_constant()) {
+      force->add_conservative(dof_masses_, constant_);  // any positions will do
+    } else {
+      varying_.push_back(force.get());
+    }
   }
-  stiffness_norm_ = calc_stiffness_norm();
 }
 
 double System::calc_force(const VecX& x, const VecX& v, VecX& f) const {
-  f.setZero(dofs());
+  assign(constant_, f);
   double power = 0.0;
-  for (const Force* force : active_) power += force->add_force(x, v, f);
+  for (const Force* force : varying_) power += force->add_force(x, v, f);
   return power;
 }
 
 void System::calc_conservative(const VecX& x, VecX& f) const {
-  f.setZero(dofs());
-  for (const Force* force : active_) force->add_conservative(x, f);
+  assign(constant_, f);
+  for (const Force* force : varying_) force->add_conservative(x, f);
 }
 
 double System::calc_damping(const VecX& x, const VecX& v, VecX& f) const {
   f.setZero(dofs());
   double power = 0.0;
-  for (const Force* force : active_) {
+  for (const Force* force : varying_) {
     if (force->has_damping()) power += force->add_damping(x, v, f);
   }
   return power;
@@ -71,16 +98,7 @@ double System::calc_damping(const VecX& x, const VecX& v, VecX& f) const {
 
 void System::calc_position_dependent(const VecX& x, VecX& f) const {
   f.setZero(dofs());
-  for (const Force* force : active_) {
-    if (!force->is_constant()) force->add_conservative(x, f);
-  }
-}
-
-void System::calc_constant(VecX& f) const {
-  f.setZero(dofs());
-  for (const Force* force : active_) {
-    if (force->is_constant()) force->add_conservative(dof_masses_, f);  // any positions will do
-  }
+  for (const Force* force : varying_) force->add_conservative(x, f);
 }
 
 double System::calc_energy(EnergyKind kind, const VecX& x) const {
@@ -103,9 +121,7 @@ double System::calc_kinetic(const VecX& v) const {
 
 double System::calc_position_dependent_energy(const VecX& x) const {
   double energy = 0.0;
-  for (const Force* force : active_) {
-    if (!force->is_constant()) energy += force->calc_energy(x);
-  }
+  for (const Force* force : varying_) energy += force->calc_energy(x);
   return energy;
 }
 
@@ -139,16 +155,16 @@ void System::prescribe(double time, VecX& x, VecX& v) const {
   }
 }
 
-std::vector<FrictionPoint> System::find_friction_points(const VecX& x) const {
-  std::vector<FrictionPoint> points;
-  for (const Force* force : active_) force->add_friction_points(x, points);
-  return points;
+void System::find_friction_points(const VecX& x, std::vector<FrictionPoint>& points) const {
+  points.clear();
+  for (const Force* force : varying_) {
+    if (force->has_friction()) force->add_friction_points(x, points);
+  }
 }
 
-void System::apply_friction(double h, const VecX& x, const VecX& F, VecX& v, StepStatistics& statistics) const {
-  const std::vector<FrictionPoint> points = find_friction_points(x);
+void System::apply_friction(double h, std::span<const FrictionPoint> points, const VecX& F, VecX& v,
+                            StepStatistics& statistics) const {
   for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
-    // A particle's points are neighbours.
     const std::int32_t particle = points[first].particle;
     while (end < points.size() && points[end].particle == particle) ++end;
     const Vec3 w = block3(inverse_masses_, particle);
@@ -163,13 +179,14 @@ void System::apply_friction(double h, const VecX& x, const VecX& F, VecX& v, Ste
     const Vec3 impulse = model_.masses[particle] * (now - before);  // N.s
     const Vec3 start = before - h * w.cwiseProduct(block3(F, particle));
     statistics.dissipated -= 0.5 * impulse.dot(before + now);
-    statistics.force_work += 0.5 * impulse.dot(start + now);
+    // Its own work, and that of F along the new velocity instead of the old one.
+    statistics.force_work += 0.5 * impulse.dot(start + now) + 0.5 * h * block3(F, particle).dot(now - before);
   }
 }
 
-std::vector<const Body*> System::find_free_bodies() const {
-  std::vector<const Body*> bodies;
-  if (!model_.obstacles.empty()) return bodies;
+void System::find_free_bodies(std::vector<const Body*>& bodies) const {
+  bodies.clear();
+  if (!model_.obstacles.empty()) return;
   for (const Body& body : model_.bodies) {
     const auto inside = [&](std::int32_t i) { return i >= body.particles.first && i < body.particles.end(); };
     const bool held =
@@ -177,7 +194,6 @@ std::vector<const Body*> System::find_free_bodies() const {
         std::any_of(model_.grabs.begin(), model_.grabs.end(), [&](const Grab& grab) { return inside(grab.particle); });
     if (!held) bodies.push_back(&body);
   }
-  return bodies;
 }
 
 std::vector<ModeBound> System::calc_mode_bounds() const {
@@ -193,6 +209,11 @@ std::vector<ModeBound> System::calc_mode_bounds() const {
     }
   }
   return bounds;
+}
+
+double System::stiffness_norm() const {
+  if (!stiffness_norm_) stiffness_norm_ = calc_stiffness_norm();
+  return *stiffness_norm_;
 }
 
 double System::calc_stiffness_norm() const {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/forces/force.h"
@@ -28,13 +30,14 @@ class System {
   bool has_friction() const { return has_friction_; }
   double size() const { return size_; }  // m, diagonal of the box around all rest positions
 
-  // f = ..., at every particle, held or not. What damps returns the power it takes, W.
+  // f = ..., at every particle, held or not; f is not x or v. What damps returns the power it takes, W.
   double calc_force(const VecX& x, const VecX& v, VecX& f) const;
   void calc_conservative(const VecX& x, VecX& f) const;
   double calc_damping(const VecX& x, const VecX& v, VecX& f) const;
   // The conservative force in two parts: what depends on positions, and what does not.
   void calc_position_dependent(const VecX& x, VecX& f) const;
-  void calc_constant(VecX& f) const;
+  void calc_constant(VecX& f) const { f = constant_; }
+  const VecX& constant_force() const { return constant_; }
 
   double calc_energy(EnergyKind kind, const VecX& x) const;  // J
   double calc_potential(const VecX& x) const;                // J, of every kind
@@ -57,13 +60,15 @@ class System {
     return calc_handle_motion(handle, time, model_.jump_time);
   }
 
-  // What explicit schemes do about friction once they have changed the velocities by h F / m, F taken at x: sliding is
-  // slowed by at most the limit times h, and stops rather than turns. Exact for what rests: it sticks.
-  void apply_friction(double h, const VecX& x, const VecX& F, VecX& v, StepStatistics& statistics) const;
-  std::vector<FrictionPoint> find_friction_points(const VecX& x) const;
+  // What explicit schemes do about friction once they have changed the velocities by h F / m and booked that change:
+  // sliding is slowed by at most the limit times h, and stops rather than turns. Exact for what rests: it sticks.
+  void apply_friction(double h, std::span<const FrictionPoint> points, const VecX& F, VecX& v,
+                      StepStatistics& statistics) const;
+  // Replaces `points`; those of a particle are neighbours.
+  void find_friction_points(const VecX& x, std::vector<FrictionPoint>& points) const;
 
   // Bodies that nothing holds or can hold: no fixed, moved or grabbed particle, no obstacle in the scene.
-  std::vector<const Body*> find_free_bodies() const;
+  void find_free_bodies(std::vector<const Body*>& bodies) const;
 
   // For position-based schemes: the active forces themselves.
   const std::vector<const Force*>& active_forces() const { return active_; }
@@ -71,17 +76,21 @@ class System {
   // One per body.
   std::vector<ModeBound> calc_mode_bounds() const;
   // N/m, norm over all degrees of freedom of mass times the largest omega^2: forces that move everything by a length.
-  double stiffness_norm() const { return stiffness_norm_; }
+  double stiffness_norm() const;
 
  private:
+  void refresh_inertia();
+  void refresh_forces();
   double calc_stiffness_norm() const;
 
   const Model& model_;
   std::vector<std::unique_ptr<Force>> forces_;
-  std::vector<const Force*> active_;
+  std::vector<const Force*> active_, varying_;  // varying: those of the active ones that depend on the state
   VecX dof_masses_, inverse_masses_, free_;
+  VecX constant_;  // N, of the active forces that do not
   bool has_damping_ = false, has_friction_ = false;
-  double size_ = 0.0, stiffness_norm_ = 0.0;
+  double size_ = 0.0;
+  mutable std::optional<double> stiffness_norm_;  // made when first asked for
 };
 
 }  // namespace flexcast

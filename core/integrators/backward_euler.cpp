@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/integrators/incremental_potential.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -13,26 +12,14 @@ class BackwardEuler final : public Integrator {
   BackwardEuler(const System& system, const SolverSettings& settings) : solver_(system, settings) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    stage_.length = h;
-    stage_.end_time = state.time + h;
-    stage_.base = state.positions;
-    stage_.base_velocity = state.velocities;
-    if (system.has_damping()) stage_.damped_at = state.positions;
-    solver_.solve(system, stage_, u_, statistics);
-    statistics.dissipated += h * solver_.calc_dissipated_power(u_);
-
-    force_ = solver_.calc_effective_force();
-    VelocityChange change(system, h, force_, state.velocities, statistics);
-    state.positions += u_;
-    state.velocities = u_ / h;
-    system.prescribe(stage_.end_time, state.positions, state.velocities);
-    change.close(state.velocities);
+    solver_.stage().start(system, state, h, 0.0);
+    solver_.solve(system, statistics);
+    statistics.dissipated += h * solver_.calc_dissipated_power();
+    solver_.finish(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, state, statistics);
   }
 
  private:
   ImplicitSolver solver_;
-  ImplicitStage stage_;
-  VecX u_, force_;
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "core/integrators/velocity_change.h"
+#include "core/integrators/handle_work.h"
+#include "core/integrators/particle_passes.h"
 
 namespace flexcast {
 namespace {
@@ -10,18 +11,17 @@ namespace {
 class ForwardEuler final : public Integrator {
  public:
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    statistics.dissipated += h * system.calc_force(state.positions, state.velocities, force_);
-    VelocityChange change(system, h, force_, state.velocities, statistics);
-    start_ = state.positions;
-    state.positions += h * state.velocities;
-    state.velocities += h * system.inverse_masses().cwiseProduct(force_);
-    if (system.has_friction()) system.apply_friction(h, start_, force_, state.velocities, statistics);
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    change.close(state.velocities);
+    step_from(system, h, state, state, statistics);
+  }
+  void step_from(const System& system, double h, const State& from, State& to, StepStatistics& statistics) override {
+    statistics.dissipated += h * system.calc_force(from.positions, from.velocities, force_);
+    passes_.drift_and_kick(system, h, force_, from, to, statistics);
+    move_handles(system, from.time + h, h, force_, to.positions, to.velocities, statistics);
   }
 
  private:
-  VecX force_, start_;
+  VecX force_;
+  ParticlePasses passes_;
 };
 
 // The eigenvalues of the amplification matrix are 1 + h lambda with lambda^2 + c lambda + omega^2 = 0.

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/integrators/incremental_potential.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -13,26 +12,14 @@ class ImplicitMidpoint final : public Integrator {
   ImplicitMidpoint(const System& system, const SolverSettings& settings) : solver_(system, settings) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    stage_.length = 0.5 * h;
-    stage_.end_time = state.time + 0.5 * h;
-    stage_.base = state.positions;
-    stage_.base_velocity = state.velocities;
-    if (system.has_damping()) stage_.damped_at = state.positions + 0.5 * h * state.velocities;
-    solver_.solve(system, stage_, u_, statistics);
-    statistics.dissipated += h * solver_.calc_dissipated_power(u_);
-
-    force_ = solver_.calc_effective_force();
-    VelocityChange change(system, h, force_, state.velocities, statistics);
-    state.positions += 2.0 * u_;
-    state.velocities = 4.0 / h * u_ - state.velocities;
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    change.close(state.velocities);
+    solver_.stage().start(system, state, 0.5 * h, 0.5 * h);
+    solver_.solve(system, statistics);
+    statistics.dissipated += h * solver_.calc_dissipated_power();
+    solver_.finish(system, h, {.reach = 2.0, .rate = 4.0 / h, .past = 1.0}, state, statistics);
   }
 
  private:
   ImplicitSolver solver_;
-  ImplicitStage stage_;
-  VecX u_, force_;
 };
 
 }  // namespace

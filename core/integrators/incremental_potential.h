@@ -9,6 +9,7 @@
 
 #include "core/forces/system.h"
 #include "core/integrators/integrator.h"
+#include "core/integrators/particle_passes.h"
 #include "core/solvers/newton.h"
 
 namespace flexcast {
@@ -20,16 +21,22 @@ struct ImplicitStage {
   VecX base;              // x*, m
   VecX base_velocity;     // v*, m/s
   VecX damped_at;         // m, where D is taken; used when the system has damping
+
+  // From the state as it is; damping takes its directions where the particles are `damped_after` seconds later.
+  void start(const System& system, const State& state, double g, double damped_after);
+};
+
+// Squared norms of the terms of a gradient, N^2.
+struct Squares {
+  double inertia = 0.0, elastic = 0.0, damping = 0.0;
 };
 
 class IncrementalPotential final : public MinimizationProblem {
  public:
-  // Only who asks for Hessians pays for matrices.
-  BlockMatrix make_hessian(const System& system);
   // Starts a stage; u becomes a first guess: 0, but where handles say so.
   void begin(const System& system, const ImplicitStage& stage, VecX& u);
   // The displacement without forces, 0 where held: where a linear solver may start.
-  VecX calc_drift() const;
+  void calc_drift(VecX& drift) const;
 
   Value calc_value(const VecX& u) override;
   double calc_gradient(const VecX& u, VecX& gradient) override;
@@ -44,37 +51,51 @@ class IncrementalPotential final : public MinimizationProblem {
   bool update_friction(const VecX& u);
   const std::vector<FrictionPoint>& friction_points() const { return friction_; }
   double slip() const { return slip_; }  // m
-  const VecX& constant_force() const { return constant_; }
+  const VecX& constant_force() const { return system_->constant_force(); }
 
  private:
+  bool take_friction_at_x();
+  void add_friction(const VecX& u, VecX& gradient, double& terms);
+
   const System* system_ = nullptr;
   const ImplicitStage* stage_ = nullptr;
   double noise_ = 0.0;                   // N
   double slip_ = 0.0;                    // m
+  double constant_norm_ = 0.0;           // N, of the constant force
   std::vector<FrictionPoint> friction_;  // of the last round
-  BlockMatrix base_matrix_;              // M / g^2 + D / g, of this stage once a Hessian was asked for
+  std::vector<FrictionPoint> found_;     // scratch
+  BlockMatrix base_matrix_;  // M / g^2 + D / g, of this stage once a Hessian was asked for; only with damping
   bool base_is_valid_ = false;
-  VecX constant_, x_, inertia_, elastic_, velocity_, damping_, sliding_, force_;
-  double damping_power_ = 0.0;
+  VecX x_, scratch_, velocity_, damping_, sliding_, force_;
+  std::vector<Squares> squares_;  // of blocks
+  double damping_power_ = 0.0;    // W
 };
 
-// Carries out stages: Newton's method on the potential, again while friction's normal forces change.
+// Carries out implicit steps of one stage: Newton's method on the potential, again while friction's normal forces
+// change.
 class ImplicitSolver {
  public:
   ImplicitSolver(const System& system, const SolverSettings& settings)
-      : newton_(settings, system.dofs() / 3), hessian_(potential_.make_hessian(system)) {}
+      : newton_(settings, system.dofs() / 3), hessian_(system.make_matrix()) {}
 
-  // u: the displacement from the stage's base.
-  void solve(const System& system, const ImplicitStage& stage, VecX& u, StepStatistics& statistics);
-  // The mean force of the stage, N: of all forces, with what the solver left unbalanced.
-  VecX calc_effective_force() const { return potential_.force() + newton_.gradient(); }
-  // W, of damping and friction along u.
-  double calc_dissipated_power(const VecX& u) const { return potential_.calc_dissipated_power(u); }
+  // To be set before solve().
+  ImplicitStage& stage() { return stage_; }
+  // Finds the displacement from the stage's base.
+  void solve(const System& system, StepStatistics& statistics);
+  // The step of h seconds that follows from it.
+  void finish(const System& system, double h, const DisplacementRule& rule, State& state, StepStatistics& statistics) {
+    passes_.follow(system, h, rule, stage_.base, u_, potential_.force(), state, statistics);
+  }
+  // W, of damping and friction along the displacement.
+  double calc_dissipated_power() const { return potential_.calc_dissipated_power(u_); }
 
  private:
+  ImplicitStage stage_;
   IncrementalPotential potential_;
   NewtonSolver newton_;
   BlockMatrix hessian_;
+  ParticlePasses passes_;
+  VecX u_, guess_;
 };
 
 }  // namespace flexcast

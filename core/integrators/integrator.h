@@ -19,6 +19,12 @@ class Integrator {
   // of freedom keep their positions, handles move as prescribed. The result depends on state, system and history only,
   // to the last bit.
   virtual void step(const System& system, double h, State& state, StepStatistics& statistics) = 0;
+  // The same from one state to another, whose time and step are not touched.
+  virtual void step_from(const System& system, double h, const State& from, State& to, StepStatistics& statistics) {
+    to.positions = from.positions;
+    to.velocities = from.velocities;
+    step(system, h, to, statistics);
+  }
   // The state or the system changed between two steps: what was kept from the last step is void.
   virtual void invalidate() {}
   // What a scheme of several steps knows of the past, for a scheme of the same name to go on from: a step and, of its

@@ -43,12 +43,13 @@ class StaticPotential final : public MinimizationProblem {
     u.setZero(system.dofs());
     if (system.has_handles()) {
       x_ = state.positions;
-      VecX unused = state.velocities;
-      system.prescribe(end_time, x_, unused);
+      unused_ = state.velocities;
+      system.prescribe(end_time, x_, unused_);
       u = x_ - state.positions;
     }
-    system.calc_constant(constant_);
-    for (const Body* body : system.find_free_bodies()) relieve(*body);
+    constant_ = system.constant_force();
+    system.find_free_bodies(free_bodies_);
+    for (const Body* body : free_bodies_) relieve(*body);
   }
 
   Value calc_value(const VecX& u) override {
@@ -77,7 +78,8 @@ class StaticPotential final : public MinimizationProblem {
       largest_rate_ = std::max(largest_rate_, std::abs(rate));
     }
     if (largest_rate_ == 0.0) largest_rate_ = 1.0;
-    hessian.add_diagonal(shift_ * largest_rate_ * system_->masses());
+    diagonal_ = shift_ * largest_rate_ * system_->masses();
+    hessian.add_diagonal(diagonal_);
     hessian.hold(system_->free());
   }
 
@@ -96,6 +98,7 @@ class StaticPotential final : public MinimizationProblem {
 
   // N, all forces at the last u, held particles included.
   const VecX& force() const { return force_; }
+  std::span<const Body* const> free_bodies() const { return free_bodies_; }
 
  private:
   static constexpr double smallest_shift = 1e-11, largest_shift = 1e3;
@@ -118,7 +121,8 @@ class StaticPotential final : public MinimizationProblem {
   const VecX* start_ = nullptr;
   double shift_ = smallest_shift, largest_rate_ = 0.0;
   double noise_ = 0.0;  // N
-  VecX constant_, x_, force_;
+  VecX constant_, x_, force_, diagonal_, unused_;
+  std::vector<const Body*> free_bodies_;
 };
 
 class QuasiStatic final : public Integrator {
@@ -131,26 +135,27 @@ class QuasiStatic final : public Integrator {
     system.calc_conservative(state.positions, start_force_);
     const double start_potential = system.calc_potential(state.positions);
     const double stopped = system.calc_kinetic(state.velocities);
-    const NewtonResult result = newton_.minimize(potential_, hessian_, VecX::Zero(u_.size()), u_);
+    no_guess_.setZero(u_.size());
+    const NewtonResult result = newton_.minimize(potential_, hessian_, no_guess_, u_);
     statistics.iterations += result.iterations;
     statistics.linear_iterations += result.linear_iterations;
     statistics.residual = result.residual;
     statistics.converged = statistics.converged && result.converged;
 
     // What handles put in, by the trapezoidal rule of what they hold against; the rest relaxed.
-    const VecX way = 0.5 * (start_force_ + potential_.force()).cwiseProduct(u_);
-    const double handle_work = way.dot(system.free()) - way.sum();
-    const double released = handle_work - (system.calc_potential(state.positions + u_) - start_potential);
+    work_ = 0.5 * (start_force_ + potential_.force()).cwiseProduct(u_);
+    const double handle_work = work_.dot(system.free()) - work_.sum();
+    start_ = state.positions;
+    state.positions += u_;
+    const double released = handle_work - (system.calc_potential(state.positions) - start_potential);
     statistics.handle_work += handle_work;
     statistics.force_work -= handle_work + stopped;
     statistics.dissipated += std::max(released, 0.0) + stopped;
 
-    start_ = state.positions;
-    state.positions += u_;
-    for (const Body* body : system.find_free_bodies()) align(system, *body, start_, state.positions);
+    for (const Body* body : potential_.free_bodies()) align(system, *body, start_, state.positions);
+    system.prescribe(state.time + h, state.positions, state.velocities);
     state.velocities.setZero();
-    VecX no_velocities = state.velocities;
-    system.prescribe(state.time + h, state.positions, no_velocities);
+    if (!is_publishable(state)) statistics.force_work = std::numeric_limits<double>::quiet_NaN();
   }
 
  private:
@@ -176,7 +181,7 @@ class QuasiStatic final : public Integrator {
   StaticPotential potential_;
   NewtonSolver newton_;
   BlockMatrix hessian_;
-  VecX u_, start_, start_force_;
+  VecX u_, no_guess_, start_, start_force_, work_;
 };
 
 }  // namespace

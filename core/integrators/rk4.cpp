@@ -2,8 +2,9 @@
 
 #include <complex>
 
+#include "core/integrators/handle_work.h"
+#include "core/integrators/particle_passes.h"
 #include "core/integrators/stability.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -22,27 +23,23 @@ class Rk4 final : public Integrator {
     statistics.dissipated += h / 6.0 * power;
 
     f1_ = (f1_ + 2.0 * f2_ + 2.0 * f3_ + f4_) / 6.0;
-    VelocityChange change(system, h, f1_, v, statistics);
-    state.positions += h / 6.0 * (v + 2.0 * v2_ + 2.0 * v3_ + v4_);
-    state.velocities += h * system.inverse_masses().cwiseProduct(f1_);
-    if (system.has_friction()) system.apply_friction(h, at_, f1_, state.velocities, statistics);
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    change.close(state.velocities);
+    v2_ = (v + 2.0 * v2_ + 2.0 * v3_ + v4_) / 6.0;
+    passes_.drift(h, v2_, state.positions, state.positions, statistics);
+    passes_.kick(system, h, f1_, at_, v, state.velocities, statistics);
+    move_handles(system, state.time + h, h, f1_, state.positions, state.velocities, statistics);
   }
 
  private:
   // The next stage, h after the start: positions at_ moved with `velocities`, velocities `to` changed by `force`.
   void make_stage(const System& system, double h, const State& state, const VecX& velocities, const VecX& force,
                   VecX& to) {
-    to = state.velocities + h * system.inverse_masses().cwiseProduct(force);
-    if (system.has_friction()) {
-      StepStatistics unused;
-      system.apply_friction(h, state.positions, force, to, unused);
-    }
+    StepStatistics unused;
+    passes_.kick(system, h, force, state.positions, state.velocities, to, unused);
     at_ = state.positions + h * velocities;
     system.prescribe(state.time + h, at_, to);
   }
 
+  ParticlePasses passes_;
   VecX f1_, f2_, f3_, f4_, v2_, v3_, v4_, at_;
 };
 

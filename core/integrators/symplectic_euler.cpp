@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "core/integrators/velocity_change.h"
+#include "core/integrators/handle_work.h"
+#include "core/integrators/particle_passes.h"
 
 namespace flexcast {
 namespace {
@@ -10,17 +11,17 @@ namespace {
 class SymplecticEuler final : public Integrator {
  public:
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    statistics.dissipated += h * system.calc_force(state.positions, state.velocities, force_);
-    VelocityChange change(system, h, force_, state.velocities, statistics);
-    state.velocities += h * system.inverse_masses().cwiseProduct(force_);
-    if (system.has_friction()) system.apply_friction(h, state.positions, force_, state.velocities, statistics);
-    state.positions += h * state.velocities;
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    change.close(state.velocities);
+    step_from(system, h, state, state, statistics);
+  }
+  void step_from(const System& system, double h, const State& from, State& to, StepStatistics& statistics) override {
+    statistics.dissipated += h * system.calc_force(from.positions, from.velocities, force_);
+    passes_.kick_and_drift(system, {h, h}, force_, from, to, statistics);
+    move_handles(system, from.time + h, h, force_, to.positions, to.velocities, statistics);
   }
 
  private:
   VecX force_;
+  ParticlePasses passes_;
 };
 
 // omega h < 2 (sqrt(1 + z^2) - z) with z = c / (2 omega), written so that nothing cancels and omega may be zero.

@@ -7,7 +7,6 @@
 #include "core/forces/friction.h"
 #include "core/integrators/coloring.h"
 #include "core/integrators/incremental_potential.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -19,10 +18,11 @@ class Vbd final : public Integrator {
         colors_(make_colors(static_cast<std::int32_t>(system.dofs() / 3), system.make_couplings())) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    stage_ = {h, state.time + h, state.positions, state.velocities, state.positions};
+    stage_.start(system, state, h, 0.0);
     potential_.begin(system, stage_, u_);
+    potential_.calc_drift(drifted_);
     // Sweeps only descend, so the better of two starts bounds the energy at any step.
-    drifted_ = u_ + potential_.calc_drift() + h * h * system.inverse_masses().cwiseProduct(potential_.constant_force());
+    drifted_ += u_ + h * h * system.inverse_masses().cwiseProduct(potential_.constant_force());
     if (potential_.calc_value(drifted_).value <= potential_.calc_value(u_).value) u_ = drifted_;
     for (int i = 0; i < settings_.iterations; ++i) {
       for (const auto& particles : colors_) update(system, particles);
@@ -97,18 +97,15 @@ class Vbd final : public Integrator {
     statistics.residual = terms > 0.0 ? gradient_.norm() / terms : 0.0;
     statistics.converged = statistics.converged && statistics.residual <= settings_.newton_tolerance;
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
-    gradient_ += potential_.force();
-    VelocityChange change(system, h, gradient_, state.velocities, statistics);
-    state.positions += u_;
-    state.velocities = u_ / h;
-    system.prescribe(stage_.end_time, state.positions, state.velocities);
-    change.close(state.velocities);
+    passes_.follow(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
+                   statistics);
   }
 
   SolverSettings settings_;
   std::vector<std::vector<std::int32_t>> colors_;
   IncrementalPotential potential_;
   ImplicitStage stage_;
+  ParticlePasses passes_;
   VecX u_, drifted_, x_, velocity_, gradient_;
   std::vector<Vec3> f_;
   std::vector<Mat3> K_;

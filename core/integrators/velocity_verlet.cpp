@@ -2,8 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/integrators/handle_work.h"
+#include "core/integrators/particle_passes.h"
 #include "core/integrators/stability.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -11,45 +12,44 @@ namespace {
 class VelocityVerlet final : public Integrator {
  public:
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
-    if (!conservative_is_valid_) system.calc_conservative(state.positions, conservative_);
-    if (system.has_damping()) {
-      system.calc_damping(state.positions, state.velocities, force_);
-      force_ += conservative_;
-      predicted_ = state.velocities + 0.5 * h * system.inverse_masses().cwiseProduct(force_);
-      statistics.dissipated += 0.5 * h * system.calc_damping(state.positions, predicted_, force_);
-      force_ += conservative_;
-    } else {
-      force_ = conservative_;
-    }
-    VelocityChange first(system, 0.5 * h, force_, state.velocities, statistics);
-    kick(system, 0.5 * h, state, statistics);
-    first.close(state.velocities);
-    state.positions += h * state.velocities;
+    step_from(system, h, state, state, statistics);
+  }
 
-    VelocityChange of_handles(system, 0.0, force_, state.velocities, statistics);
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    of_handles.close(state.velocities);
-    system.calc_conservative(state.positions, conservative_);
+  void step_from(const System& system, double h, const State& from, State& to, StepStatistics& statistics) override {
+    const double half = 0.5 * h, end = from.time + h;
+    if (!conservative_is_valid_) system.calc_conservative(from.positions, conservative_);
+    if (system.has_damping()) predict(system, half, from);
+    const VecX& first = add_damping(system, half, from.positions, predicted_, statistics);
+    statistics.handle_work -= half * calc_handle_power(system, first, from.velocities);
+    passes_.kick_and_drift(system, {half, h}, first, from, to, statistics);
+    move_handles(system, end, 0.0, first, to.positions, to.velocities, statistics);
+
+    system.calc_conservative(to.positions, conservative_);
     conservative_is_valid_ = true;
-    if (system.has_damping()) {
-      statistics.dissipated += 0.5 * h * system.calc_damping(state.positions, state.velocities, force_);
-      force_ += conservative_;
-    } else {
-      force_ = conservative_;
-    }
-    VelocityChange second(system, 0.5 * h, force_, state.velocities, statistics);
-    kick(system, 0.5 * h, state, statistics);
-    second.close(state.velocities);
+    const VecX& second = add_damping(system, half, to.positions, to.velocities, statistics);
+    statistics.handle_work -= half * calc_handle_power(system, second, to.velocities);
+    passes_.kick(system, half, second, to.positions, to.velocities, to.velocities, statistics);
   }
 
   void invalidate() override { conservative_is_valid_ = false; }
 
  private:
-  void kick(const System& system, double h, State& state, StepStatistics& statistics) {
-    state.velocities += h * system.inverse_masses().cwiseProduct(force_);
-    if (system.has_friction()) system.apply_friction(h, state.positions, force_, state.velocities, statistics);
+  // The velocities at the half step, for the damping there.
+  void predict(const System& system, double half, const State& from) {
+    system.calc_damping(from.positions, from.velocities, force_);
+    force_ += conservative_;
+    predicted_ = from.velocities + half * system.inverse_masses().cwiseProduct(force_);
   }
 
+  // All forces: the conservative ones, and what damps at x and v for `h` seconds.
+  const VecX& add_damping(const System& system, double h, const VecX& x, const VecX& v, StepStatistics& statistics) {
+    if (!system.has_damping()) return conservative_;
+    statistics.dissipated += h * system.calc_damping(x, v, force_);
+    force_ += conservative_;
+    return force_;
+  }
+
+  ParticlePasses passes_;
   VecX conservative_, force_, predicted_;
   bool conservative_is_valid_ = false;
 };

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/integrators/incremental_potential.h"
-#include "core/integrators/velocity_change.h"
 
 namespace flexcast {
 namespace {
@@ -66,21 +65,14 @@ class Xpbd final : public Integrator {
   void finish(const System& system, double h, State& state, StepStatistics& statistics) {
     statistics.iterations += settings_.iterations;
     measure_residual(system, h, state, statistics);
-    velocity_ = u_ / h;
-    force_ =
-        potential_.force() +
-        system.free().cwiseProduct(system.masses().cwiseProduct(velocity_ - state.velocities) / h - potential_.force());
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
-    VelocityChange change(system, h, force_, state.velocities, statistics);
-    state.positions += u_;
-    state.velocities = velocity_;
-    system.prescribe(state.time + h, state.positions, state.velocities);
-    change.close(state.velocities);
+    passes_.follow(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
+                   statistics);
   }
 
   // How far from backward Euler the sweeps ended.
   void measure_residual(const System& system, double h, const State& state, StepStatistics& statistics) {
-    stage_ = {h, state.time + h, state.positions, state.velocities, state.positions};
+    stage_.start(system, state, h, 0.0);
     potential_.begin(system, stage_, guess_);
     if (system.has_friction()) potential_.update_friction(u_);
     const double terms = potential_.calc_gradient(u_, gradient_);
@@ -91,6 +83,7 @@ class Xpbd final : public Integrator {
   SolverSettings settings_;
   IncrementalPotential potential_;
   ImplicitStage stage_;
+  ParticlePasses passes_;
   VecX force_, weights_, velocity_, x_, u_, guess_, gradient_;
   std::vector<std::vector<double>> lambdas_;  // per active force
   std::vector<std::int32_t> all_;             // every particle

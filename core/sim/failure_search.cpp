@@ -27,16 +27,6 @@ std::int64_t find_element(const std::vector<Element>& elements, IndexRange range
 
 }  // namespace
 
-bool is_publishable(const State& state) {
-  // Comparisons with NaN are false, so the largest magnitude is asked for entry by entry.
-  const auto all_good = [](const VecX& v) {
-    bool good = true;
-    for (std::int64_t i = 0; i < v.size(); ++i) good &= is_good(v[i]);
-    return good;
-  };
-  return all_good(state.positions) && all_good(state.velocities);
-}
-
 Failure find_failure(const Model& model, const State& before, const State& after) {
   Failure failure;
   std::int64_t particle = find_bad_particle(after);

@@ -8,7 +8,7 @@ namespace flexcast {
 // False: no descent direction could be found (something is not finite).
 bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, const VecX& u,
                                   NewtonResult& result) {
-  const VecX right = -gradient_;
+  right_ = -gradient_;
   for (const bool exact : {true, false}) {
     problem.calc_hessian(u, exact, hessian);
     if (result.iterations == 0) {
@@ -16,9 +16,9 @@ bool NewtonSolver::find_direction(MinimizationProblem& problem, BlockMatrix& hes
     } else {
       direction_.setZero(u.size());
     }
-    const LinearResult linear = linear_->solve(hessian, right, direction_);
+    const LinearResult linear = linear_->solve(hessian, right_, direction_);
     result.linear_iterations += linear.iterations;
-    if (linear.positive_definite && direction_.dot(right) > 0.0) {
+    if (linear.positive_definite && direction_.dot(right_) > 0.0) {
       linear_converged_ = linear.converged;
       return true;
     }

@@ -55,7 +55,7 @@ class NewtonSolver {
 
   SolverSettings settings_;
   std::unique_ptr<LinearSolver> linear_;
-  VecX gradient_, trial_gradient_, direction_, trial_;
+  VecX gradient_, trial_gradient_, right_, direction_, trial_;
   bool linear_converged_ = false;
 };
 

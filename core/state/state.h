@@ -12,4 +12,10 @@ struct State {
   double time = 0.0;      // s
 };
 
+// Metres or metres per second: beyond it a number is lost in single precision, which most streams use.
+inline constexpr double largest_magnitude = 1e38;
+
+// All positions and velocities are finite and at most largest_magnitude.
+bool is_publishable(const State& state);
+
 }  // namespace flexcast
