@@ -3,34 +3,70 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/base/block_product.h"
 #include "core/base/checks.h"
+#include "core/base/parallel.h"
 
 namespace flexcast {
+namespace {
 
-BlockMatrix::BlockMatrix(std::int32_t rows, std::vector<std::pair<std::int32_t, std::int32_t>> pairs) {
+constexpr std::int64_t rows_per_block = 512;  // of sums, and the least a thread takes
+
+std::uint64_t make_pattern_id() {
   static std::atomic<std::uint64_t> last{0};
-  pattern_id_ = ++last;
-  const std::size_t given = pairs.size();
-  pairs.reserve(2 * given + static_cast<std::size_t>(rows));
-  for (std::size_t k = 0; k < given; ++k) pairs.emplace_back(pairs[k].second, pairs[k].first);
-  for (std::int32_t i = 0; i < rows; ++i) pairs.emplace_back(i, i);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return ++last;
+}
 
-  starts_.assign(static_cast<std::size_t>(rows) + 1, 0);
-  diagonals_.resize(static_cast<std::size_t>(rows));
-  columns_.reserve(pairs.size());
+}  // namespace
+
+// Counting sort by row, then each short row by itself.
+BlockMatrix::BlockMatrix(std::int32_t rows, const Pairs& pairs) : pattern_id_(make_pattern_id()) {
+  const auto n = static_cast<std::size_t>(rows);
+  std::vector<std::int64_t> next(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) next[i + 1] = 1;
   for (const auto& [i, j] : pairs) {
-    if (i == j) diagonals_[i] = static_cast<std::int64_t>(columns_.size());
-    columns_.push_back(j);
-    ++starts_[i + 1];
+    if (i == j) continue;
+    ++next[static_cast<std::size_t>(i) + 1];
+    ++next[static_cast<std::size_t>(j) + 1];
   }
-  for (std::int32_t i = 0; i < rows; ++i) starts_[i + 1] += starts_[i];
-  blocks_.assign(columns_.size(), Mat3::Zero());
+  for (std::size_t i = 0; i < n; ++i) next[i + 1] += next[i];
+  columns_.resize(static_cast<std::size_t>(next[n]));
+  starts_ = next;
+  for (std::int32_t i = 0; i < rows; ++i) columns_[static_cast<std::size_t>(next[i]++)] = i;
+  for (const auto& [i, j] : pairs) {
+    if (i == j) continue;
+    columns_[static_cast<std::size_t>(next[i]++)] = j;
+    columns_[static_cast<std::size_t>(next[j]++)] = i;
+  }
+
+  diagonals_.resize(n);
+  std::int64_t filled = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto first = columns_.begin() + starts_[i], end = columns_.begin() + starts_[i + 1];
+    std::sort(first, end);
+    const auto unique_end = std::unique(first, end);
+    const auto diagonal = std::lower_bound(first, unique_end, static_cast<std::int32_t>(i));
+    diagonals_[i] = filled + (diagonal - first);
+    std::copy(first, unique_end, columns_.begin() + filled);
+    starts_[i] = filled;
+    filled += unique_end - first;
+  }
+  starts_[n] = filled;
+  columns_.resize(static_cast<std::size_t>(filled));
+  columns_.shrink_to_fit();
+  blocks_.assign(columns_.size() + 1, Mat3::Zero());
 }
 
 void BlockMatrix::set_zero() {
-  std::fill(blocks_.begin(), blocks_.end(), Mat3::Zero());
+  parallel_for(static_cast<std::int64_t>(blocks_.size()), 8192,
+               [&](std::int64_t first, std::int64_t end) { std::fill(value(first), value(end), 0.0); });
+}
+
+void BlockMatrix::assign_values(const BlockMatrix& other) {
+  FLEXCAST_CHECK(other.blocks_.size() == blocks_.size());
+  parallel_for(static_cast<std::int64_t>(blocks_.size()), 8192, [&](std::int64_t first, std::int64_t end) {
+    std::copy(other.value(first), other.value(end), value(first));
+  });
 }
 
 std::int64_t BlockMatrix::find(std::int32_t i, std::int32_t j) const {
@@ -44,25 +80,36 @@ void BlockMatrix::add_diagonal(const VecX& diagonal) {
   for (std::int32_t i = 0; i < rows(); ++i) blocks_[diagonals_[i]].diagonal() += block3(diagonal, i);
 }
 
+// Couplings are symmetric: who is coupled to a held particle stands in that particle's row.
 void BlockMatrix::hold(const VecX& free) {
+  const auto apply = [&](std::int32_t i, std::int64_t k) {
+    const Vec3 row_free = block3(free, i), column_free = block3(free, columns_[k]);
+    blocks_[k] = row_free.asDiagonal() * blocks_[k] * column_free.asDiagonal();
+  };
   for (std::int32_t i = 0; i < rows(); ++i) {
     const Vec3 row_free = block3(free, i);
+    if (row_free == Vec3::Ones()) continue;
     for (std::int64_t k = starts_[i]; k < starts_[i + 1]; ++k) {
-      const Vec3 column_free = block3(free, columns_[k]);
-      if (row_free == Vec3::Ones() && column_free == Vec3::Ones()) continue;
-      blocks_[k] = row_free.asDiagonal() * blocks_[k] * column_free.asDiagonal();
-      if (columns_[k] == i) blocks_[k].diagonal() += Vec3::Ones() - row_free;
+      apply(i, k);
+      if (columns_[k] != i) apply(columns_[k], find(columns_[k], i));
     }
+    blocks_[diagonals_[i]].diagonal() += Vec3::Ones() - row_free;
   }
 }
 
 void BlockMatrix::multiply(const VecX& x, VecX& y) const {
   y.resize(x.size());
-  for (std::int32_t i = 0; i < rows(); ++i) {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t k = starts_[i]; k < starts_[i + 1]; ++k) sum += blocks_[k] * block3(x, columns_[k]);
-    block3(y, i) = sum;
-  }
+  const BlockRows A = block_rows();
+  parallel_for(rows(), rows_per_block,
+               [&](std::int64_t first, std::int64_t end) { multiply_block_rows(A, first, end, x.data(), y.data()); });
+}
+
+double BlockMatrix::multiply_dot(const VecX& x, VecX& y, std::vector<double>& partial) const {
+  y.resize(x.size());
+  const BlockRows A = block_rows();
+  return parallel_sum(rows(), rows_per_block, partial, [&](std::int64_t first, std::int64_t end) {
+    return multiply_block_rows(A, first, end, x.data(), y.data());
+  });
 }
 
 }  // namespace flexcast

@@ -1,5 +1,5 @@
 // A sparse matrix of 3 x 3 blocks, one block row a particle, with a fixed pattern: both triangles and the whole
-// diagonal. Rows are stored one after the other with ascending columns.
+// diagonal. Rows are stored one after the other with ascending columns, blocks column by column, without gaps.
 #pragma once
 
 #include <span>
@@ -10,20 +10,42 @@
 
 namespace flexcast {
 
+// The arrays of a matrix as kernels want them.
+struct BlockRows {
+  const std::int64_t* starts = nullptr;     // rows + 1
+  const std::int64_t* diagonals = nullptr;  // rows: where the diagonal block is
+  const std::int32_t* columns = nullptr;
+  const double* values = nullptr;  // 9 a block; three more may be read behind the last one
+};
+
 class BlockMatrix {
  public:
+  using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
   BlockMatrix() = default;
   // The pattern: every pair in both directions, and the diagonal. Pairs may repeat.
-  BlockMatrix(std::int32_t rows, std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
+  BlockMatrix(std::int32_t rows, const Pairs& pairs);
 
   std::int32_t rows() const { return static_cast<std::int32_t>(starts_.empty() ? 0 : starts_.size() - 1); }
   std::int64_t block_count() const { return static_cast<std::int64_t>(columns_.size()); }
+  // Of all patterns ever made, this one's number; copies have the same.
+  std::uint64_t pattern_id() const { return pattern_id_; }
 
   void set_zero();
   // The values of a matrix with the same pattern.
-  void assign_values(const BlockMatrix& other) { blocks_ = other.blocks_; }
+  void assign_values(const BlockMatrix& other);
+  // The number of the block (i, j), which the pattern must have.
+  std::int64_t find(std::int32_t i, std::int32_t j) const;
+  // 9 doubles a block, by number, column by column.
+  double* values() { return blocks_.data()->data(); }
+  const double* values() const { return blocks_.data()->data(); }
+  double* value(std::int64_t index) { return values() + 9 * index; }
+  const double* value(std::int64_t index) const { return values() + 9 * index; }
+
   // Adds to the block (i, j), which the pattern must have.
-  void add(std::int32_t i, std::int32_t j, const Mat3& block) { blocks_[find(i, j)] += block; }
+  void add(std::int32_t i, std::int32_t j, const Mat3& block) {
+    blocks_[static_cast<std::size_t>(find(i, j))] += block;
+  }
   void add_diagonal(const VecX& diagonal);
   // Rows and columns of held degrees of freedom (free[i] = 0) become those of the identity.
   void hold(const VecX& free);
@@ -36,6 +58,8 @@ class BlockMatrix {
 
   // y = A x.
   void multiply(const VecX& x, VecX& y) const;
+  // The same; returns x.y. `partial` is scratch to be kept.
+  double multiply_dot(const VecX& x, VecX& y, std::vector<double>& partial) const;
 
   std::span<const std::int32_t> columns(std::int32_t row) const {
     return {columns_.data() + starts_[row], static_cast<std::size_t>(starts_[row + 1] - starts_[row])};
@@ -43,14 +67,16 @@ class BlockMatrix {
   std::span<const Mat3> blocks(std::int32_t row) const {
     return {blocks_.data() + starts_[row], static_cast<std::size_t>(starts_[row + 1] - starts_[row])};
   }
+  std::int64_t start(std::int32_t row) const { return starts_[row]; }
   const Mat3& diagonal(std::int32_t row) const { return blocks_[diagonals_[row]]; }
+  BlockRows block_rows() const { return {starts_.data(), diagonals_.data(), columns_.data(), values()}; }
 
  private:
   std::uint64_t pattern_id_ = 0;
   std::vector<std::int64_t> starts_;     // rows + 1
   std::vector<std::int64_t> diagonals_;  // rows: where the diagonal block is
   std::vector<std::int32_t> columns_;
-  std::vector<Mat3> blocks_;
+  std::vector<Mat3> blocks_ = {Mat3::Zero()};  // and one more, so that kernels may read behind the last
 };
 
 }  // namespace flexcast

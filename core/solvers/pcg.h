@@ -1,26 +1,31 @@
-// Preconditioned conjugate gradients; the preconditioner is the inverse of the 3 x 3 diagonal blocks.
+// Preconditioned conjugate gradients.
 // Source: Y. Saad, Iterative Methods for Sparse Linear Systems, SIAM 2003, algorithm 9.1.
 #pragma once
 
 #include <vector>
 
 #include "core/solvers/linear_solver.h"
+#include "core/solvers/preconditioner.h"
 
 namespace flexcast {
 
 class PcgSolver final : public LinearSolver {
  public:
   // Ends when |b - A x| <= tolerance |b|.
-  explicit PcgSolver(double tolerance) : tolerance_(tolerance) {}
+  PcgSolver(double tolerance, std::unique_ptr<Preconditioner> preconditioner)
+      : tolerance_(tolerance), preconditioner_(std::move(preconditioner)) {}
   LinearResult solve(const BlockMatrix& A, const VecX& b, VecX& x) override;
 
  private:
-  bool invert_diagonal(const BlockMatrix& A);
-  void precondition(const VecX& r, VecX& z) const;
+  // Takes a step of length alpha along p; the new residual's square and, preconditioned, its product with that.
+  double advance(double alpha, VecX& x, double& rz);
+  void turn(double beta);
+  double dot(const VecX& a, const VecX& b);
 
   double tolerance_;
-  std::vector<Mat3> inverse_diagonal_;
+  std::unique_ptr<Preconditioner> preconditioner_;
   VecX r_, z_, p_, Ap_;
+  std::vector<double> partial_;
 };
 
 }  // namespace flexcast
