@@ -50,12 +50,6 @@ class BlockMatrix {
   // Rows and columns of held degrees of freedom (free[i] = 0) become those of the identity.
   void hold(const VecX& free);
 
-  // Where block (i, j) is, which the pattern must have: 9 doubles from values() + 9 * find(i, j), column by column.
-  std::int64_t find(std::int32_t i, std::int32_t j) const;
-  double* values() { return blocks_.front().data(); }
-  // Of the pattern; copies have the same.
-  std::uint64_t pattern_id() const { return pattern_id_; }
-
   // y = A x.
   void multiply(const VecX& x, VecX& y) const;
   // The same; returns x.y. `partial` is scratch to be kept.
