@@ -22,6 +22,7 @@ class System {
   void refresh();
 
   std::int64_t dofs() const { return inverse_masses_.size(); }
+  const VecX& rest_positions() const { return model_.rest_positions; }  // m, 3 n
   const VecX& masses() const { return dof_masses_; }              // kg, 3 n
   const VecX& inverse_masses() const { return inverse_masses_; }  // 1/kg, 3 n, 0 where held
   const VecX& free() const { return free_; }  // 3 n: 1 where free, 0 where held or moved by a handle

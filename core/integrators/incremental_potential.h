@@ -76,7 +76,7 @@ class IncrementalPotential final : public MinimizationProblem {
 class ImplicitSolver {
  public:
   ImplicitSolver(const System& system, const SolverSettings& settings)
-      : newton_(settings, system.dofs() / 3), hessian_(system.make_matrix()) {}
+      : newton_(settings, system.rest_positions()), hessian_(system.make_matrix()) {}
 
   // To be set before solve().
   ImplicitStage& stage() { return stage_; }

@@ -128,7 +128,7 @@ class StaticPotential final : public MinimizationProblem {
 class QuasiStatic final : public Integrator {
  public:
   QuasiStatic(const System& system, const SolverSettings& settings)
-      : newton_(with_line_search(settings), system.dofs() / 3), hessian_(system.make_matrix()) {}
+      : newton_(with_line_search(settings), system.rest_positions()), hessian_(system.make_matrix()) {}
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
     potential_.begin(system, state.time + h, state, u_);

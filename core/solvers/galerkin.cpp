@@ -42,6 +42,7 @@ void GalerkinProduct::make_maps(const BlockMatrix& A, const BlockMatrix& coarse)
     for (const std::int32_t j : A.columns(i)) slot_total += static_cast<std::size_t>(P_.starts[j + 1] - P_.starts[j]);
   }
   slots_.reserve(slot_total);
+  own_slots_.assign(P_.parents.size(), 0);
   std::vector<std::int32_t> nodes;
   for (std::int32_t i = 0; i < A.rows(); ++i) {
     slot_starts_[i] = static_cast<std::int64_t>(slots_.size());
@@ -62,12 +63,22 @@ void GalerkinProduct::make_maps(const BlockMatrix& A, const BlockMatrix& coarse)
       }
     }
     for (std::int64_t p = P_.starts[i]; p < P_.starts[i + 1]; ++p) {
-      for (const std::int32_t node : nodes) {
-        targets_.push_back(static_cast<std::int32_t>(coarse.find(P_.parents[p], node)));
+      const auto own = std::lower_bound(nodes.begin(), nodes.end(), P_.parents[p]);
+      own_slots_[static_cast<std::size_t>(p)] = static_cast<std::uint16_t>(own - nodes.begin());
+      for (auto node = own; node != nodes.end(); ++node) {
+        targets_.push_back(static_cast<std::int32_t>(coarse.find(P_.parents[p], *node)));
       }
     }
   }
   targets_.shrink_to_fit();
+  mirrors_.reserve(static_cast<std::size_t>(coarse.block_count() - coarse.rows()) / 2);
+  mirror_starts_.assign(1, 0);
+  for (std::int32_t c = 0; c < coarse.rows(); ++c) {
+    for (const std::int32_t d : coarse.columns(c)) {
+      if (d < c) mirrors_.push_back(static_cast<std::int32_t>(coarse.find(d, c)));
+    }
+    mirror_starts_.push_back(static_cast<std::int64_t>(mirrors_.size()));
+  }
   make_slabs();
 }
 
@@ -99,14 +110,18 @@ void GalerkinProduct::make_slabs() {
     apart = true;
     for (std::int64_t s = 0; s + 2 < count; ++s) apart = apart && high[s] < low[s + 2];
   }
+  // Within a slab in the order of the matrix: that is how memory likes to be read.
+  for (std::size_t s = 0; s + 1 < slab_starts_.size(); ++s) {
+    std::sort(order_.begin() + slab_starts_[s], order_.begin() + slab_starts_[s + 1]);
+  }
   scratch_.assign(slab_starts_.size() - 1, std::vector<double>(12 * static_cast<std::size_t>(most_slots_)));
 }
 
 void GalerkinProduct::calc(const BlockMatrix& A, BlockMatrix& coarse) {
   coarse.set_zero();
-  const GalerkinMaps maps{P_.starts.data(),    P_.parents.data(),   P_.weights.data(),
-                          slot_counts_.data(), slot_starts_.data(), target_starts_.data(),
-                          slots_.data(),       targets_.data(),     order_.data()};
+  const GalerkinMaps maps{P_.starts.data(),    P_.parents.data(),     P_.weights.data(), slot_counts_.data(),
+                          slot_starts_.data(), target_starts_.data(), slots_.data(),     own_slots_.data(),
+                          targets_.data(),     order_.data()};
   const BlockRows rows = A.block_rows();
   const auto slabs = static_cast<std::int64_t>(scratch_.size());
   for (const std::int64_t parity : {0, 1}) {
@@ -117,6 +132,15 @@ void GalerkinProduct::calc(const BlockMatrix& A, BlockMatrix& coarse) {
       }
     });
   }
+  parallel_for(coarse.rows(), least_rows, [&](std::int64_t first, std::int64_t end) {
+    for (std::int64_t c = first; c < end; ++c) {
+      double* block = coarse.value(coarse.start(static_cast<std::int32_t>(c)));
+      for (std::int64_t k = mirror_starts_[c]; k < mirror_starts_[c + 1]; ++k, block += 9) {
+        const double* other = coarse.value(mirrors_[k]);
+        for (int m = 0; m < 9; ++m) block[m] = other[3 * (m % 3) + m / 3];
+      }
+    }
+  });
 }
 
 }  // namespace flexcast

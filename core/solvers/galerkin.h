@@ -26,12 +26,15 @@ class GalerkinProduct {
   std::int32_t coarse_rows_ = 0;
   BlockMatrix::Pairs coarse_pairs_;
   // By fine row i: the m coarse nodes that its neighbours have as parents (slots), for every neighbour and parent its
-  // slot, for every own parent and slot the block's number.
+  // slot, for every own parent its slot, and for that and the
+  // later ones the block's number: only the upper triangle is summed up.
   std::vector<std::int32_t> slot_counts_;
   std::vector<std::int64_t> slot_starts_, target_starts_;
-  std::vector<std::uint16_t> slots_;
+  std::vector<std::uint16_t> slots_, own_slots_;
   std::vector<std::int32_t> targets_;
   std::int32_t most_slots_ = 0;
+  std::vector<std::int32_t> mirrors_;  // by block below the diagonal, in their order: the transposed one
+  std::vector<std::int64_t> mirror_starts_;
   // Rows by their first parent, cut into slabs; every other slab at a time shares no coarse row.
   std::vector<std::int32_t> order_;
   std::vector<std::int64_t> slab_starts_;

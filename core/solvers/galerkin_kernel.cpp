@@ -71,7 +71,7 @@ void add_rows(const BlockRows& A, const GalerkinMaps& maps, std::int64_t first, 
     }
     const std::int32_t* target = maps.targets + maps.target_starts[i];
     for (std::int64_t p = parent_first; p < parent_end; ++p) {
-      for (std::int32_t s = 0; s < slots; ++s) {
+      for (std::int32_t s = maps.own_slots[p]; s < slots; ++s) {
         add_nine(scratch + 12 * s, maps.weights[p], coarse + 9 * static_cast<std::int64_t>(*target++));
       }
     }

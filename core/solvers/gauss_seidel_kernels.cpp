@@ -14,42 +14,54 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_MAX_BYTES >= 32
 class Row {
  public:
+  using Lanes = hn::FixedTag<double, 4>;
+  using Vector = hn::Vec<Lanes>;
+
   // Starts with the three doubles at `from`.
-  HWY_INLINE explicit Row(const double* from) {
-    HWY_ALIGN const double start[4] = {from[0], from[1], from[2], 0.0};
-    sum0_ = hn::Load(d_, start);
-    sum1_ = sum2_ = hn::Zero(d_);
+  HWY_INLINE explicit Row(const double* from) { start(load(from)); }
+  // Starts with from + a b, entry by entry.
+  HWY_INLINE Row(const double* from, const double* a, const double* b) {
+    start(hn::MulAdd(load(a), load(b), load(from)));
   }
   HWY_INLINE void subtract(const double* block, const double* x) {
-    sum0_ = hn::NegMulAdd(hn::LoadU(d_, block), hn::Set(d_, x[0]), sum0_);
-    sum1_ = hn::NegMulAdd(hn::LoadU(d_, block + 3), hn::Set(d_, x[1]), sum1_);
-    sum2_ = hn::NegMulAdd(hn::LoadU(d_, block + 6), hn::Set(d_, x[2]), sum2_);
+    const Lanes d;
+    sum0_ = hn::NegMulAdd(hn::LoadU(d, block), hn::Set(d, x[0]), sum0_);
+    sum1_ = hn::NegMulAdd(hn::LoadU(d, block + 3), hn::Set(d, x[1]), sum1_);
+    sum2_ = hn::NegMulAdd(hn::LoadU(d, block + 6), hn::Set(d, x[2]), sum2_);
   }
-  HWY_INLINE void store(double* to) const { put(hn::Add(hn::Add(sum0_, sum1_), sum2_), to); }
+  HWY_INLINE void store(double* to) const { put(sum(), to); }
   // to = block times this.
   HWY_INLINE void store_product(const double* block, double* to) const {
-    HWY_ALIGN double y[4];
-    hn::Store(hn::Add(hn::Add(sum0_, sum1_), sum2_), d_, y);
-    const auto first = hn::Mul(hn::LoadU(d_, block), hn::Set(d_, y[0]));
-    const auto second = hn::Mul(hn::LoadU(d_, block + 3), hn::Set(d_, y[1]));
-    put(hn::MulAdd(hn::LoadU(d_, block + 6), hn::Set(d_, y[2]), hn::Add(first, second)), to);
+    const Lanes d;
+    const Vector y = sum(), low = hn::ConcatLowerLower(d, y, y), high = hn::ConcatUpperUpper(d, y, y);
+    const Vector first = hn::Mul(hn::LoadU(d, block), hn::Broadcast<0>(low));
+    const Vector second = hn::MulAdd(hn::LoadU(d, block + 3), hn::Broadcast<1>(low), first);
+    put(hn::MulAdd(hn::LoadU(d, block + 6), hn::Broadcast<0>(high), second), to);
   }
 
  private:
-  HWY_INLINE void put(hn::Vec<hn::FixedTag<double, 4>> v, double* to) const {
-    HWY_ALIGN double y[4];
-    hn::Store(v, d_, y);
-    to[0] = y[0];
-    to[1] = y[1];
-    to[2] = y[2];
+  static HWY_INLINE Vector load(const double* from) {
+    const Lanes d;
+    return hn::MaskedLoad(hn::FirstN(d, 3), d, from);
   }
-  hn::FixedTag<double, 4> d_;
-  hn::Vec<hn::FixedTag<double, 4>> sum0_, sum1_, sum2_;
+  HWY_INLINE void start(Vector v) {
+    sum0_ = v;
+    sum1_ = sum2_ = hn::Zero(Lanes());
+  }
+  HWY_INLINE Vector sum() const { return hn::Add(hn::Add(sum1_, sum2_), sum0_); }
+  static HWY_INLINE void put(Vector v, double* to) {
+    const hn::Half<Lanes> half;
+    hn::StoreU(hn::LowerHalf(half, v), half, to);
+    to[2] = hn::GetLane(hn::UpperHalf(half, v));
+  }
+  Vector sum0_, sum1_, sum2_;
 };
 #else
 class Row {
  public:
   explicit Row(const double* from) : sum_{from[0], from[1], from[2]} {}
+  Row(const double* from, const double* a, const double* b)
+      : sum_{from[0] + a[0] * b[0], from[1] + a[1] * b[1], from[2] + a[2] * b[2]} {}
   void subtract(const double* block, const double* x) {
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) sum_[r] -= block[3 * c + r] * x[c];
@@ -83,10 +95,9 @@ void forwards(const SweepMatrix& m, std::int64_t first, std::int64_t end, const 
 }
 
 void residual(const SweepMatrix& m, std::int64_t first, std::int64_t end, const double* x, double* out) {
+  const double zero[3] = {0.0, 0.0, 0.0};
   for (std::int64_t i = first; i < end; ++i) {
-    const double* c = m.added + 3 * i;
-    const double start[3] = {c[0] * x[3 * i], c[1] * x[3 * i + 1], c[2] * x[3 * i + 2]};
-    Row row(start);
+    Row row(zero, m.added + 3 * i, x + 3 * i);
     for (std::int64_t k = m.A.starts[i]; m.A.columns[k] < first; ++k) {
       row.subtract(m.A.values + 9 * k, at(x, m.A.columns[k]));
     }
@@ -102,10 +113,7 @@ void residual(const SweepMatrix& m, std::int64_t first, std::int64_t end, const 
 void backwards(const SweepMatrix& m, std::int64_t first, std::int64_t end, const double* r, const double* old,
                double* x) {
   for (std::int64_t i = end - 1; i >= first; --i) {
-    const double* c = m.added + 3 * i;
-    const double* mine = old + 3 * i;
-    const double start[3] = {r[3 * i] + c[0] * mine[0], r[3 * i + 1] + c[1] * mine[1], r[3 * i + 2] + c[2] * mine[2]};
-    Row row(start);
+    Row row(r + 3 * i, m.added + 3 * i, old + 3 * i);
     const std::int64_t diagonal = m.A.diagonals[i];
     for (std::int64_t k = m.A.starts[i]; k < diagonal; ++k) row.subtract(m.A.values + 9 * k, at(old, m.A.columns[k]));
     std::int64_t k = m.A.starts[i + 1] - 1;

@@ -22,7 +22,9 @@ class LinearSolver {
   virtual LinearResult solve(const BlockMatrix& A, const VecX& b, VecX& x) = 0;
 };
 
-// settings.linear: "pcg", "ldlt", or "auto", which takes ldlt up to 1000 particles.
-std::unique_ptr<LinearSolver> make_linear_solver(const SolverSettings& settings, std::int64_t particles);
+// settings.linear: "ldlt"; "pcg", conjugate gradients with multigrid, or with block-Jacobi for few particles; or
+// "auto", ldlt where that should be faster. The choice follows from the first matrix's pattern alone, never from a
+// clock. rest_positions: m, 3 a block row, where multigrid lays its grids.
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverSettings& settings, const VecX& rest_positions);
 
 }  // namespace flexcast

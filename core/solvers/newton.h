@@ -37,8 +37,8 @@ struct NewtonResult {
 // Scratch that outlives a solve, so that steps need not allocate.
 class NewtonSolver {
  public:
-  NewtonSolver(const SolverSettings& settings, std::int64_t particles)
-      : settings_(settings), linear_(make_linear_solver(settings, particles)) {}
+  NewtonSolver(const SolverSettings& settings, const VecX& rest_positions)
+      : settings_(settings), linear_(make_linear_solver(settings, rest_positions)) {}
 
   // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it
   // takes the full Newton step, without a search: the linearly implicit schemes. `residual` then says how far from the

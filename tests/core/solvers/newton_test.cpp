@@ -58,7 +58,7 @@ TEST(Newton, SolvesAQuadraticInOneIteration) {
   BlockMatrix hessian(2, {});
   for (const int iterations : {1, 20}) {
     VecX u = VecX::Zero(6);
-    NewtonSolver solver(settings(iterations), 2);
+    NewtonSolver solver(settings(iterations), VecX::Zero(6));
     const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
     EXPECT_EQ(result.iterations, 1);
     EXPECT_LE((u - problem.center).norm(), 1e-14 * problem.center.norm());
@@ -73,7 +73,7 @@ TEST(Newton, FindsMinimaFromWhereTheHessianIsIndefinite) {
   SplitMix64 random(1);
   for (int k = 0; k < 20; ++k) {
     VecX u = make_random_vector(random, 6, 0.5);
-    NewtonSolver solver(settings(100), 2);
+    NewtonSolver solver(settings(100), VecX::Zero(6));
     const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
     EXPECT_TRUE(result.converged);
     EXPECT_LE((u.cwiseAbs() - VecX::Ones(6)).cwiseAbs().maxCoeff(), 1e-10);
@@ -88,7 +88,7 @@ TEST(Newton, NeverGoesUphill) {
     VecX u = make_random_vector(random, 6, 3.0);
     for (int i = 0; i < 10; ++i) {
       const double before = problem.calc_value(u).value;
-      NewtonSolver solver(settings(2, 1e-14), 2);
+      NewtonSolver solver(settings(2, 1e-14), VecX::Zero(6));
       (void)solver.minimize(problem, hessian, VecX::Zero(6), u);
       EXPECT_LE(problem.calc_value(u).value, before + 1e-14);
     }
@@ -99,11 +99,11 @@ TEST(Newton, SaysWhenItDidNotConverge) {
   DoubleWell problem;
   BlockMatrix hessian(2, {});
   VecX u = VecX::Constant(6, 50.0);
-  NewtonSolver solver(settings(2), 2);
+  NewtonSolver solver(settings(2), VecX::Zero(6));
   const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
   EXPECT_FALSE(result.converged);
   EXPECT_GT(result.residual, 1e-12);
-  EXPECT_LE(result.iterations, 2);
+  EXPECT_LE(result.iterations, VecX::Zero(6));
 }
 
 }  // namespace
