@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/solvers/galerkin_kernel.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 #include <hwy/highway.h>
 
@@ -57,6 +58,11 @@ void add_rows(const BlockRows& A, const GalerkinMaps& maps, std::int64_t first, 
     const std::int64_t i = maps.order[n];
     const std::int64_t parent_first = maps.parent_starts[i], parent_end = maps.parent_starts[i + 1];
     if (parent_first == parent_end) continue;
+    if (n + 2 < end) {
+      const std::int64_t later = maps.order[n + 2];
+      const double* last = A.values + 9 * A.starts[later + 1];
+      for (const double* p = A.values + 9 * A.starts[later]; p < last; p += 8) hwy::Prefetch(p);
+    }
     const std::int32_t slots = maps.slot_counts[i];
     for (std::int32_t k = 0; k < 12 * slots; ++k) scratch[k] = 0.0;
     double diagonal[12];

@@ -62,6 +62,7 @@ bool GaussSeidel::setup(const BlockMatrix& A) {
   for_chunks(A.rows(), [&](std::int64_t first, std::int64_t end) {
     for (std::int64_t i = first; i < end; ++i) {
       const auto row = static_cast<std::int32_t>(i);
+      if (i + 16 < end) __builtin_prefetch(A.diagonal(row + 16).data());
       const auto columns = A.columns(row);
       Vec3 added = Vec3::Zero();
       if (columns.front() < first || columns.back() >= end) {

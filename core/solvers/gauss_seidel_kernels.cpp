@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/solvers/gauss_seidel_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 #include <hwy/highway.h>
 
@@ -83,8 +84,15 @@ HWY_INLINE const double* at(const double* x, std::int32_t j) {
   return x + 3 * static_cast<std::int64_t>(j);
 }
 
+// Half rows, and rows from the last to the first, are not what processors foresee: blocks [first, end) are asked for.
+HWY_INLINE void prefetch(const BlockRows& A, std::int64_t first, std::int64_t end) {
+  for (const double* p = A.values + 9 * first; p < A.values + 9 * end; p += 8) hwy::Prefetch(p);
+}
+constexpr std::int64_t ahead = 4;  // rows
+
 void forwards(const SweepMatrix& m, std::int64_t first, std::int64_t end, const double* r, double* x) {
   for (std::int64_t i = first; i < end; ++i) {
+    if (i + ahead < end) prefetch(m.A, m.A.starts[i + ahead], m.A.diagonals[i + ahead]);
     Row row(r + 3 * i);
     const std::int64_t diagonal = m.A.diagonals[i];
     std::int64_t k = m.A.starts[i];
@@ -97,6 +105,7 @@ void forwards(const SweepMatrix& m, std::int64_t first, std::int64_t end, const 
 void residual(const SweepMatrix& m, std::int64_t first, std::int64_t end, const double* x, double* out) {
   const double zero[3] = {0.0, 0.0, 0.0};
   for (std::int64_t i = first; i < end; ++i) {
+    if (i + ahead < end) prefetch(m.A, m.A.diagonals[i + ahead] + 1, m.A.starts[i + ahead + 1]);
     Row row(zero, m.added + 3 * i, x + 3 * i);
     for (std::int64_t k = m.A.starts[i]; m.A.columns[k] < first; ++k) {
       row.subtract(m.A.values + 9 * k, at(x, m.A.columns[k]));
@@ -113,6 +122,7 @@ void residual(const SweepMatrix& m, std::int64_t first, std::int64_t end, const 
 void backwards(const SweepMatrix& m, std::int64_t first, std::int64_t end, const double* r, const double* old,
                double* x) {
   for (std::int64_t i = end - 1; i >= first; --i) {
+    if (i - ahead >= first) prefetch(m.A, m.A.starts[i - ahead], m.A.starts[i - ahead + 1]);
     Row row(r + 3 * i, m.added + 3 * i, old + 3 * i);
     const std::int64_t diagonal = m.A.diagonals[i];
     for (std::int64_t k = m.A.starts[i]; k < diagonal; ++k) row.subtract(m.A.values + 9 * k, at(old, m.A.columns[k]));
