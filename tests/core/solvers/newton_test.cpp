@@ -103,7 +103,7 @@ TEST(Newton, SaysWhenItDidNotConverge) {
   const NewtonResult result = solver.minimize(problem, hessian, VecX::Zero(6), u);
   EXPECT_FALSE(result.converged);
   EXPECT_GT(result.residual, 1e-12);
-  EXPECT_LE(result.iterations, VecX::Zero(6));
+  EXPECT_LE(result.iterations, 2);
 }
 
 }  // namespace
