@@ -32,7 +32,7 @@ void Kernels::choose_tolerance() {
     SolverSettings settings;
     settings.linear = "pcg";
     settings.linear_tolerance = tolerance;
-    solver_ = make_linear_solver(settings, system_.dofs() / 3);
+    solver_ = make_linear_solver(settings, system_.rest_positions());
     if (run_long_solve() >= wanted) break;
   }
   solution_ = u_;
