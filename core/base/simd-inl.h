@@ -20,6 +20,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Loops over parts of an element keep vectors in registers only when they are written out.
+#undef FLEXCAST_UNROLL
+#define FLEXCAST_UNROLL _Pragma("GCC unroll 10")
+
 constexpr int batch_lanes = 8;
 using Lanes = hn::CappedTag<double, batch_lanes>;
 constexpr int lane_count = static_cast<int>(hn::MaxLanes(Lanes()));
@@ -117,17 +121,21 @@ HWY_INLINE Mat fma(Real s, const Mat& A, const Mat& B) {
   return {fma(s, A.c0, B.c0), fma(s, A.c1, B.c1), fma(s, A.c2, B.c2)};
 }
 // A + s I.
-HWY_INLINE Mat add_to_diagonal(Mat A, Real s) {
-  A.c0.x = A.c0.x + s;
-  A.c1.y = A.c1.y + s;
-  A.c2.z = A.c2.z + s;
-  return A;
+HWY_INLINE Mat add_to_diagonal(const Mat& A, Real s) {
+  return {{A.c0.x + s, A.c0.y, A.c0.z}, {A.c1.x, A.c1.y + s, A.c1.z}, {A.c2.x, A.c2.y, A.c2.z + s}};
 }
 HWY_INLINE Vec operator*(const Mat& A, const Vec& b) {
   return fma(b.x, A.c0, fma(b.y, A.c1, b.z * A.c2));
 }
 HWY_INLINE Mat operator*(const Mat& A, const Mat& B) {
   return {A * B.c0, A * B.c1, A * B.c2};
+}
+HWY_INLINE Vec choose(hn::Mask<Lanes> first, const Vec& a, const Vec& b) {
+  return {hn::IfThenElse(first, a.x.v, b.x.v), hn::IfThenElse(first, a.y.v, b.y.v),
+          hn::IfThenElse(first, a.z.v, b.z.v)};
+}
+HWY_INLINE Mat choose(hn::Mask<Lanes> first, const Mat& A, const Mat& B) {
+  return {choose(first, A.c0, B.c0), choose(first, A.c1, B.c1), choose(first, A.c2, B.c2)};
 }
 // a b^T.
 HWY_INLINE Mat outer(const Vec& a, const Vec& b) {
@@ -192,9 +200,9 @@ HWY_INLINE hn::Vec<Four> lower_half(hn::Vec<Lanes> row) {
 #endif
 
 HWY_INLINE hn::Vec<Lanes> load_row(const double* array, const std::uint16_t* places, int i) {
-  const auto lower = hn::Load(Four(), array + 4 * places[i]);
+  const auto lower = hn::Load(Four(), array + places[i]);
 #if HWY_TARGET == HWY_AVX3
-  return hn::Combine(Lanes(), hn::Load(Four(), array + 4 * places[i + 4]), lower);
+  return hn::Combine(Lanes(), hn::Load(Four(), array + places[i + 4]), lower);
 #else
   return lower;
 #endif
@@ -209,15 +217,12 @@ HWY_INLINE Rows turn(Real a, Real b, Real c, Real d) {
           hn::OddEvenBlocks(cd_odd, hn::SwapAdjacentBlocks(ab_odd))};
 }
 
-HWY_INLINE void add_row_unaligned(hn::Vec<Four> row, double* to) {
-  hn::StoreU(hn::Add(hn::LoadU(Four(), to), row), Four(), to);
-}
 HWY_INLINE void add_row(hn::Vec<Four> row, double* to) {
   hn::Store(hn::Add(hn::Load(Four(), to), row), Four(), to);
 }
 #endif
 
-// The vectors at places[lane] of an array of x, y, z, 0. Its beginning and places are those of the part's first lane.
+// The vectors that begin at places[lane] of an array of x, y, z, 0; places are those of the part's first lane on.
 HWY_INLINE Vec load_nodes(const double* array, const std::uint16_t* places) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   const auto r0 = load_row(array, places, 0), r1 = load_row(array, places, 1);
@@ -229,7 +234,7 @@ HWY_INLINE Vec load_nodes(const double* array, const std::uint16_t* places) {
 #else
   HWY_ALIGN double x[lane_count], y[lane_count], z[lane_count];
   for (int lane = 0; lane < lane_count; ++lane) {
-    const double* from = array + 4 * places[lane];
+    const double* from = array + places[lane];
     x[lane] = from[0];
     y[lane] = from[1];
     z[lane] = from[2];
@@ -238,22 +243,79 @@ HWY_INLINE Vec load_nodes(const double* array, const std::uint16_t* places) {
 #endif
 }
 
-// array[places[node * batch_lanes + lane]] += vectors[node].
+// A row of four doubles a lane: x, y, z, 0.
+HWY_INLINE void store_rows(const Vec& a, double* to) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  const Rows rows = turn(a.x, a.y, a.z, Real(0.0));
+  hn::Store(lower_half(rows.r0), Four(), to);
+  hn::Store(lower_half(rows.r1), Four(), to + 4);
+  hn::Store(lower_half(rows.r2), Four(), to + 8);
+  hn::Store(lower_half(rows.r3), Four(), to + 12);
+#if HWY_TARGET == HWY_AVX3
+  hn::Store(upper_half(rows.r0), Four(), to + 16);
+  hn::Store(upper_half(rows.r1), Four(), to + 20);
+  hn::Store(upper_half(rows.r2), Four(), to + 24);
+  hn::Store(upper_half(rows.r3), Four(), to + 28);
+#endif
+#else
+  HWY_ALIGN double x[lane_count], y[lane_count], z[lane_count];
+  store(a.x, x);
+  store(a.y, y);
+  store(a.z, z);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    to[4 * lane] = x[lane];
+    to[4 * lane + 1] = y[lane];
+    to[4 * lane + 2] = z[lane];
+  }
+#endif
+}
+
+// A sum of such rows.
+struct FourSum {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  hn::Vec<Four> sum;
+  HWY_INLINE FourSum() : sum(hn::Zero(Four())) {}
+  HWY_INLINE void add(const double* row) {
+    sum = hn::Add(sum, hn::Load(Four(), row));
+  }
+  HWY_INLINE void subtract(const double* row) {
+    sum = hn::Sub(sum, hn::Load(Four(), row));
+  }
+  HWY_INLINE void store_three(double* to) const {
+    using Two = hn::FixedTag<double, 2>;
+    hn::StoreU(hn::LowerHalf(Two(), sum), Two(), to);
+    to[2] = hn::GetLane(hn::UpperHalf(Two(), sum));
+  }
+#else
+  double x = 0.0, y = 0.0, z = 0.0;
+  HWY_INLINE void add(const double* row) {
+    x += row[0], y += row[1], z += row[2];
+  }
+  HWY_INLINE void subtract(const double* row) {
+    x -= row[0], y -= row[1], z -= row[2];
+  }
+  HWY_INLINE void store_three(double* to) const {
+    to[0] = x, to[1] = y, to[2] = z;
+  }
+#endif
+};
+
+// The vectors that begin at array + places[node * batch_lanes + lane] += vectors[node].
 template <int nodes>
 HWY_INLINE void add_to_nodes(const Vec (&vectors)[nodes], const std::uint16_t* places, double* array) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   for (int a = 0; a < nodes; ++a) {
     const Rows rows = turn(vectors[a].x, vectors[a].y, vectors[a].z, Real(0.0));
     const std::uint16_t* to = places + a * batch_lanes;
-    add_row(lower_half(rows.r0), array + 4 * to[0]);
-    add_row(lower_half(rows.r1), array + 4 * to[1]);
-    add_row(lower_half(rows.r2), array + 4 * to[2]);
-    add_row(lower_half(rows.r3), array + 4 * to[3]);
+    add_row(lower_half(rows.r0), array + to[0]);
+    add_row(lower_half(rows.r1), array + to[1]);
+    add_row(lower_half(rows.r2), array + to[2]);
+    add_row(lower_half(rows.r3), array + to[3]);
 #if HWY_TARGET == HWY_AVX3
-    add_row(upper_half(rows.r0), array + 4 * to[4]);
-    add_row(upper_half(rows.r1), array + 4 * to[5]);
-    add_row(upper_half(rows.r2), array + 4 * to[6]);
-    add_row(upper_half(rows.r3), array + 4 * to[7]);
+    add_row(upper_half(rows.r0), array + to[4]);
+    add_row(upper_half(rows.r1), array + to[5]);
+    add_row(upper_half(rows.r2), array + to[6]);
+    add_row(upper_half(rows.r3), array + to[7]);
 #endif
   }
 #else
@@ -263,7 +325,7 @@ HWY_INLINE void add_to_nodes(const Vec (&vectors)[nodes], const std::uint16_t* p
     store(vectors[a].y, y);
     store(vectors[a].z, z);
     for (int lane = 0; lane < lane_count; ++lane) {
-      double* to = array + 4 * places[a * batch_lanes + lane];
+      double* to = array + places[a * batch_lanes + lane];
       to[0] += x[lane];
       to[1] += y[lane];
       to[2] += z[lane];
@@ -272,39 +334,66 @@ HWY_INLINE void add_to_nodes(const Vec (&vectors)[nodes], const std::uint16_t* p
 #endif
 }
 
-// The 3 x 3 blocks at values + 9 * entries[lane], stored column by column, += A.
-HWY_INLINE void add_to_blocks(const Mat& A, const std::int32_t* entries, double* values) {
-  HWY_ALIGN double last[lane_count];
-  store(A.c2.z, last);
+// Nine entries a lane, column by column, as rows of eight and the ninth apart.
+HWY_INLINE void store_blocks(const Mat& A, double* rows, double* lasts) {
+  store(A.c2.z, lasts);
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   const Rows first = turn(A.c0.x, A.c0.y, A.c0.z, A.c1.x), second = turn(A.c1.y, A.c1.z, A.c2.x, A.c2.y);
-  const hn::Vec<Lanes> rows[2][4] = {{first.r0, first.r1, first.r2, first.r3},
-                                     {second.r0, second.r1, second.r2, second.r3}};
-  for (int i = 0; i < 4; ++i) {
-    double* to = values + 9 * static_cast<std::int64_t>(entries[i]);
-    add_row_unaligned(lower_half(rows[0][i]), to);
-    add_row_unaligned(lower_half(rows[1][i]), to + 4);
-    to[8] += last[i];
-  }
+  hn::Store(lower_half(first.r0), Four(), rows);
+  hn::Store(lower_half(second.r0), Four(), rows + 4);
+  hn::Store(lower_half(first.r1), Four(), rows + 8);
+  hn::Store(lower_half(second.r1), Four(), rows + 12);
+  hn::Store(lower_half(first.r2), Four(), rows + 16);
+  hn::Store(lower_half(second.r2), Four(), rows + 20);
+  hn::Store(lower_half(first.r3), Four(), rows + 24);
+  hn::Store(lower_half(second.r3), Four(), rows + 28);
 #if HWY_TARGET == HWY_AVX3
-  for (int i = 0; i < 4; ++i) {
-    double* to = values + 9 * static_cast<std::int64_t>(entries[i + 4]);
-    add_row_unaligned(upper_half(rows[0][i]), to);
-    add_row_unaligned(upper_half(rows[1][i]), to + 4);
-    to[8] += last[i + 4];
-  }
+  hn::Store(upper_half(first.r0), Four(), rows + 32);
+  hn::Store(upper_half(second.r0), Four(), rows + 36);
+  hn::Store(upper_half(first.r1), Four(), rows + 40);
+  hn::Store(upper_half(second.r1), Four(), rows + 44);
+  hn::Store(upper_half(first.r2), Four(), rows + 48);
+  hn::Store(upper_half(second.r2), Four(), rows + 52);
+  hn::Store(upper_half(first.r3), Four(), rows + 56);
+  hn::Store(upper_half(second.r3), Four(), rows + 60);
 #endif
 #else
-  const Real entries_of_A[8] = {A.c0.x, A.c0.y, A.c0.z, A.c1.x, A.c1.y, A.c1.z, A.c2.x, A.c2.y};
-  HWY_ALIGN double lanes[8][lane_count];
-  for (int k = 0; k < 8; ++k) store(entries_of_A[k], lanes[k]);
-  for (int lane = 0; lane < lane_count; ++lane) {
-    double* to = values + 9 * static_cast<std::int64_t>(entries[lane]);
-    for (int k = 0; k < 8; ++k) to[k] += lanes[k][lane];
-    to[8] += last[lane];
+  const Real eight[8] = {A.c0.x, A.c0.y, A.c0.z, A.c1.x, A.c1.y, A.c1.z, A.c2.x, A.c2.y};
+  for (int k = 0; k < 8; ++k) {
+    HWY_ALIGN double lanes[lane_count];
+    store(eight[k], lanes);
+    for (int lane = 0; lane < lane_count; ++lane) rows[8 * lane + k] = lanes[lane];
   }
 #endif
 }
+
+// A sum of such.
+struct NineSum {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  hn::Vec<Four> first, second;
+  double last = 0.0;
+  HWY_INLINE NineSum() : first(hn::Zero(Four())), second(hn::Zero(Four())) {}
+  HWY_INLINE void add(const double* row, double ninth) {
+    first = hn::Add(first, hn::Load(Four(), row));
+    second = hn::Add(second, hn::Load(Four(), row + 4));
+    last += ninth;
+  }
+  HWY_INLINE void store(double* to) const {
+    hn::Store(first, Four(), to);
+    hn::Store(second, Four(), to + 4);
+    to[8] = last;
+  }
+#else
+  double sums[9] = {};
+  HWY_INLINE void add(const double* row, double ninth) {
+    for (int k = 0; k < 8; ++k) sums[k] += row[k];
+    sums[8] += ninth;
+  }
+  HWY_INLINE void store(double* to) const {
+    for (int k = 0; k < 9; ++k) to[k] = sums[k];
+  }
+#endif
+};
 
 // A sum a lane, added up in the order of the lanes.
 struct LaneSums {

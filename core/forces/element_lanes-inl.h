@@ -110,6 +110,7 @@ struct ElementLanes {
   Mat inverse_edges;
   Real weight;
 
+  ElementLanes() = default;
   HWY_INLINE ElementLanes(const ElementBatches& elements, int b, int part)
       : places(elements.places + static_cast<std::int64_t>(b) * Shape::nodes * batch_lanes + part),
         inverse_edges(load_mat(elements.inverse_edges + static_cast<std::int64_t>(b) * 9 * batch_lanes + part)),
@@ -117,6 +118,7 @@ struct ElementLanes {
 
   HWY_INLINE typename Shape::Motion load_motion(const double* vectors) const {
     Vec x[Shape::nodes];
+    FLEXCAST_UNROLL
     for (int a = 0; a < Shape::nodes; ++a) x[a] = load_nodes(vectors, places + a * batch_lanes);
     return Shape::make_motion(x);
   }
@@ -125,11 +127,12 @@ struct ElementLanes {
   }
   // w dE/dD of a point with the stress P.
   HWY_INLINE Mat calc_point_slopes(const Mat& P) const { return weight * (P * transpose(inverse_edges)); }
-  HWY_INLINE void subtract(const typename Shape::Slopes& slopes, double* f) const {
-    Vec forces[Shape::nodes];
-    slopes.calc_node_slopes(forces);
-    for (Vec& force : forces) force = Real(-1.0) * force;
-    add_to_nodes(forces, places, f);
+  // One row a node.
+  HWY_INLINE void store_node_slopes(const typename Shape::Slopes& slopes, double* rows) const {
+    Vec s[Shape::nodes];
+    slopes.calc_node_slopes(s);
+    FLEXCAST_UNROLL
+    for (int a = 0; a < Shape::nodes; ++a) store_rows(s[a], rows + a * 4 * batch_lanes);
   }
   HWY_INLINE Vec calc_shape_gradient(int q, int a) const {
     const Mat rows = transpose(inverse_edges);

@@ -4,6 +4,8 @@
 #include <bitset>
 #include <numeric>
 
+#include "core/forces/patch_kernels.h"
+
 namespace flexcast {
 namespace {
 
@@ -49,100 +51,34 @@ std::vector<std::int32_t> make_order(std::span<const std::int32_t> nodes, int no
 
 }  // namespace
 
-Patches::Patches(std::span<const std::int32_t> nodes, int nodes_per_element, std::int32_t most_elements,
-                 const VecX& rest_positions, IndexRange particles)
-    : nodes_per_element_(nodes_per_element), particles_(particles) {
-  const std::vector<std::int32_t> order = make_order(nodes, nodes_per_element, rest_positions, particles);
-  const auto n = static_cast<std::size_t>(nodes_per_element);
-  const auto nodes_of = [&](std::int32_t e) { return nodes.subspan(static_cast<std::size_t>(e) * n, n); };
-
-  std::vector<std::int32_t> place_of(static_cast<std::size_t>(particles.count), -1);
-  std::size_t begin = 0;
-  while (begin < order.size()) {
-    // As many elements as fit.
-    std::vector<std::int32_t> mine;
-    std::size_t end = begin;
-    for (; end < order.size() && end - begin < static_cast<std::size_t>(most_elements); ++end) {
-      const std::size_t before = mine.size();
-      for (const std::int32_t particle : nodes_of(order[end])) {
-        std::int32_t& place = place_of[static_cast<std::size_t>(particle - particles.first)];
-        if (place < 0) place = 0, mine.push_back(particle);
-      }
-      if (mine.size() > static_cast<std::size_t>(most_slots)) {
-        for (std::size_t k = before; k < mine.size(); ++k)
-          place_of[static_cast<std::size_t>(mine[k] - particles.first)] = -1;
-        mine.resize(before);
-        break;
-      }
-    }
-    std::sort(mine.begin(), mine.end());
-    for (std::size_t k = 0; k < mine.size(); ++k) {
-      place_of[static_cast<std::size_t>(mine[k] - particles.first)] = static_cast<std::int32_t>(k);
-    }
-    const auto first_batch = static_cast<std::int32_t>(batch_count());
-    add_batches({order.data() + begin, end - begin}, [&](std::int32_t e, std::size_t a) {
-      return static_cast<std::uint16_t>(place_of[static_cast<std::size_t>(nodes_of(e)[a] - particles.first)]);
-    });
-    patches_.push_back({first_batch, static_cast<std::int32_t>(batch_count()) - first_batch,
-                        static_cast<std::int32_t>(slot_particles_.size()), static_cast<std::int32_t>(mine.size())});
-    slot_particles_.insert(slot_particles_.end(), mine.begin(), mine.end());
-    for (const std::int32_t particle : mine) place_of[static_cast<std::size_t>(particle - particles.first)] = -1;
-    begin = end;
-  }
-
-  meeting_starts_.assign(static_cast<std::size_t>(particles.count) + 1, 0);
-  for (const std::int32_t particle : slot_particles_)
-    ++meeting_starts_[static_cast<std::size_t>(particle - particles.first) + 1];
-  std::partial_sum(meeting_starts_.begin(), meeting_starts_.end(), meeting_starts_.begin());
-  std::vector<std::int32_t> next(meeting_starts_.begin(), meeting_starts_.end() - 1);
-  meeting_.resize(slot_particles_.size());
-  for (std::size_t slot = 0; slot < slot_particles_.size(); ++slot) {
-    meeting_[static_cast<std::size_t>(next[static_cast<std::size_t>(slot_particles_[slot] - particles.first)]++)] =
-        static_cast<std::int32_t>(slot);
-  }
-
-  // Each patch takes the first colour that no neighbour before it has.
-  std::vector<std::int32_t> patch_of_slot(slot_particles_.size()), color_of(patches_.size(), -1);
-  for (std::size_t p = 0; p < patches_.size(); ++p) {
-    std::fill_n(patch_of_slot.begin() + patches_[p].first_slot, patches_[p].slots, static_cast<std::int32_t>(p));
-  }
-  std::vector<std::uint8_t> taken;
-  for (std::size_t p = 0; p < patches_.size(); ++p) {
-    taken.assign(colors_.size() + 1, 0);
-    for (std::int32_t k = 0; k < patches_[p].slots; ++k) {
-      const auto i = static_cast<std::size_t>(slot_particles_[static_cast<std::size_t>(patches_[p].first_slot + k)] -
-                                              particles.first);
-      for (std::int32_t m = meeting_starts_[i]; m < meeting_starts_[i + 1]; ++m) {
-        const std::int32_t other = color_of[static_cast<std::size_t>(
-            patch_of_slot[static_cast<std::size_t>(meeting_[static_cast<std::size_t>(m)])])];
-        if (other >= 0) taken[static_cast<std::size_t>(other)] = 1;
-      }
-    }
-    const auto color = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
-    color_of[p] = static_cast<std::int32_t>(color);
-    if (color == colors_.size()) colors_.emplace_back();
-    colors_[color].push_back(static_cast<std::int32_t>(p));
-  }
-
-  elements_.shrink_to_fit();
-  places_.shrink_to_fit();
-  slot_particles_.shrink_to_fit();
-  partial_.resize(3 * slot_particles_.size());
-}
-
-// Each element goes to the first batch that has room and none of its particles.
-template <class Place>
-void Patches::add_batches(std::span<const std::int32_t> mine, Place place) {
+// A patch in the making.
+struct Patches::Draft {
   struct Batch {
     std::vector<std::int32_t> elements;
     std::bitset<most_slots> taken;
   };
-  const auto n = static_cast<std::size_t>(nodes_per_element_);
-  std::vector<Batch> batches;
-  std::size_t first_open = 0;
-  for (const std::int32_t e : mine) {
+
+  explicit Draft(IndexRange world) : range(world), places(static_cast<std::size_t>(world.count), -1) {}
+
+  std::int32_t& place(std::int32_t particle) { return places[static_cast<std::size_t>(particle - range.first)]; }
+  std::int32_t place(std::int32_t particle) const { return places[static_cast<std::size_t>(particle - range.first)]; }
+  // False: too many particles.
+  bool add_particles(std::span<const std::int32_t> nodes) {
+    const std::size_t before = particles.size();
+    for (const std::int32_t particle : nodes) {
+      if (place(particle) >= 0) continue;
+      place(particle) = static_cast<std::int32_t>(particles.size());
+      particles.push_back(particle);
+    }
+    if (particles.size() <= static_cast<std::size_t>(most_slots)) return true;
+    for (std::size_t k = before; k < particles.size(); ++k) place(particles[k]) = -1;
+    particles.resize(before);
+    return false;
+  }
+  // The first batch that has room and none of the element's particles.
+  void add_apart(std::int32_t e, std::span<const std::int32_t> nodes) {
     std::bitset<most_slots> own;
-    for (std::size_t a = 0; a < n; ++a) own.set(place(e, a));
+    for (const std::int32_t particle : nodes) own.set(static_cast<std::size_t>(place(particle)));
     while (first_open < batches.size() && batches[first_open].elements.size() == lanes) ++first_open;
     std::size_t b = first_open;
     while (b < batches.size() && (batches[b].elements.size() == lanes || (batches[b].taken & own).any())) ++b;
@@ -150,14 +86,144 @@ void Patches::add_batches(std::span<const std::int32_t> mine, Place place) {
     batches[b].elements.push_back(e);
     batches[b].taken |= own;
   }
-  for (const Batch& batch : batches) {
+  void spread(std::span<const std::int32_t> elements) {
+    batches.resize((elements.size() + lanes - 1) / lanes);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      batches[k % batches.size()].elements.push_back(elements[k]);
+    }
+  }
+  void clear() {
+    for (const std::int32_t particle : particles) place(particle) = -1;
+    particles.clear();
+    batches.clear();
+    first_open = 0;
+  }
+
+  IndexRange range;
+  std::vector<std::int32_t> places;     // of the body's particles; -1: not in the patch
+  std::vector<std::int32_t> particles;  // of the patch
+  std::vector<Batch> batches;
+  std::size_t first_open = 0;
+};
+
+Patches::Patches(std::span<const std::int32_t> nodes, std::span<const NodeRow> node_rows, LaneOrder lane_order,
+                 const VecX& rest_positions, IndexRange particles)
+    : nodes_per_element_(node_rows.size()), node_rows_(node_rows.begin(), node_rows.end()), particles_(particles) {
+  const std::vector<std::int32_t> order =
+      make_order(nodes, static_cast<int>(nodes_per_element_), rest_positions, particles);
+  std::int32_t rows_per_element = 1;
+  for (const NodeRow& one : node_rows) rows_per_element = std::max(rows_per_element, one.row + 1);
+  const auto most_elements = static_cast<std::size_t>(most_rows / rows_per_element / lanes * lanes);
+  Draft draft(particles);
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const auto nodes_of = [&](std::size_t k) {
+      return nodes.subspan(static_cast<std::size_t>(order[k]) * nodes_per_element_, nodes_per_element_);
+    };
+    while (end < order.size() && end - begin < most_elements && draft.add_particles(nodes_of(end))) {
+      if (lane_order == LaneOrder::apart) draft.add_apart(order[end], nodes_of(end));
+      ++end;
+    }
+    if (lane_order == LaneOrder::spread) draft.spread({order.data() + begin, end - begin});
+    add_patch(nodes, draft);
+    draft.clear();
+  }
+  find_meetings();
+  find_colors();
+  elements_.shrink_to_fit();
+  places_.shrink_to_fit();
+  slot_particles_.shrink_to_fit();
+  row_counts_.shrink_to_fit();
+  rows_.shrink_to_fit();
+  partial_.resize(3 * slot_particles_.size());
+}
+
+void Patches::add_patch(std::span<const std::int32_t> nodes, const Draft& draft) {
+  // Rows by particle, in the order of batches, lanes and nodes.
+  struct Given {
+    std::int32_t particle = 0;
+    std::vector<std::uint16_t> added, subtracted;
+    std::size_t count() const { return added.size() + subtracted.size(); }
+  };
+  std::vector<Given> given(draft.particles.size());
+  for (std::size_t k = 0; k < given.size(); ++k) given[k].particle = draft.particles[k];
+  std::int32_t rows_per_element = 1;
+  for (const NodeRow& one : node_rows_) rows_per_element = std::max(rows_per_element, one.row + 1);
+  for (std::size_t b = 0; b < draft.batches.size(); ++b) {
+    for (std::size_t lane = 0; lane < draft.batches[b].elements.size(); ++lane) {
+      for (std::size_t a = 0; a < nodes_per_element_; ++a) {
+        const auto e = static_cast<std::size_t>(draft.batches[b].elements[lane]);
+        Given& to = given[static_cast<std::size_t>(draft.place(nodes[e * nodes_per_element_ + a]))];
+        const std::size_t row =
+            (b * static_cast<std::size_t>(rows_per_element) + static_cast<std::size_t>(node_rows_[a].row)) * lanes +
+            lane;
+        (node_rows_[a].subtracted ? to.subtracted : to.added).push_back(static_cast<std::uint16_t>(row));
+      }
+    }
+  }
+  // Particles with as many rows next to each other: loops of the same length are predicted well.
+  std::sort(given.begin(), given.end(), [](const Given& one, const Given& other) {
+    return one.count() != other.count() ? one.count() > other.count() : one.particle < other.particle;
+  });
+
+  patches_.push_back({static_cast<std::int32_t>(batch_count()), static_cast<std::int32_t>(draft.batches.size()),
+                      static_cast<std::int32_t>(slot_particles_.size()), static_cast<std::int32_t>(given.size()),
+                      static_cast<std::int64_t>(rows_.size())});
+  std::vector<std::int32_t> slot_of(given.size());  // by the draft's places
+  for (std::size_t slot = 0; slot < given.size(); ++slot) {
+    slot_of[static_cast<std::size_t>(draft.place(given[slot].particle))] = static_cast<std::int32_t>(slot);
+    slot_particles_.push_back(given[slot].particle);
+    for (const auto* list : {&given[slot].added, &given[slot].subtracted}) {
+      row_counts_.push_back(static_cast<std::uint16_t>(list->size()));
+      rows_.insert(rows_.end(), list->begin(), list->end());
+    }
+  }
+  for (const Draft::Batch& batch : draft.batches) {
     const auto element = [&](std::size_t lane) { return batch.elements[std::min(lane, batch.elements.size() - 1)]; };
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       elements_.push_back(lane < batch.elements.size() ? element(lane) : -1 - element(lane));
     }
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) places_.push_back(place(element(lane), a));
+    for (std::size_t a = 0; a < nodes_per_element_; ++a) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const std::int32_t particle = nodes[static_cast<std::size_t>(element(lane)) * nodes_per_element_ + a];
+        places_.push_back(static_cast<std::uint16_t>(4 * slot_of[static_cast<std::size_t>(draft.place(particle))]));
+      }
     }
+  }
+}
+
+void Patches::find_meetings() {
+  const auto row = [&](std::int32_t particle) { return static_cast<std::size_t>(particle - particles_.first); };
+  meeting_starts_.assign(static_cast<std::size_t>(particles_.count) + 1, 0);
+  for (const std::int32_t particle : slot_particles_) ++meeting_starts_[row(particle) + 1];
+  std::partial_sum(meeting_starts_.begin(), meeting_starts_.end(), meeting_starts_.begin());
+  std::vector<std::int32_t> next(meeting_starts_.begin(), meeting_starts_.end() - 1);
+  meeting_.resize(slot_particles_.size());
+  for (std::size_t slot = 0; slot < slot_particles_.size(); ++slot) {
+    meeting_[static_cast<std::size_t>(next[row(slot_particles_[slot])]++)] = static_cast<std::int32_t>(slot);
+  }
+}
+
+// Each patch takes the first colour that no neighbour before it has.
+void Patches::find_colors() {
+  std::vector<std::int32_t> patch_of(slot_particles_.size()), color_of(patches_.size(), -1);
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    std::fill_n(patch_of.begin() + patches_[p].first_slot, patches_[p].slots, static_cast<std::int32_t>(p));
+  }
+  std::vector<std::uint8_t> taken;
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    taken.assign(colors_.size() + 1, 0);
+    for (std::int32_t slot = patches_[p].first_slot; slot < patches_[p].first_slot + patches_[p].slots; ++slot) {
+      const auto i = static_cast<std::size_t>(slot_particles_[static_cast<std::size_t>(slot)] - particles_.first);
+      for (std::int32_t m = meeting_starts_[i]; m < meeting_starts_[i + 1]; ++m) {
+        const std::int32_t other = patch_of[static_cast<std::size_t>(meeting_[static_cast<std::size_t>(m)])];
+        const std::int32_t color = color_of[static_cast<std::size_t>(other)];
+        if (color >= 0) taken[static_cast<std::size_t>(color)] = 1;
+      }
+    }
+    const auto color = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
+    color_of[p] = static_cast<std::int32_t>(color);
+    if (color == colors_.size()) colors_.emplace_back();
+    colors_[color].push_back(static_cast<std::int32_t>(p));
   }
 }
 
@@ -180,13 +246,10 @@ void Patches::copy_back(const Patch& patch, const double* local, VecX& x) const 
   }
 }
 
-void Patches::put(const Patch& patch, const double* local) const {
-  double* to = partial_.data() + 3 * static_cast<std::int64_t>(patch.first_slot);
-  for (std::int32_t i = 0; i < patch.slots; ++i) {
-    to[3 * i] = local[4 * i];
-    to[3 * i + 1] = local[4 * i + 1];
-    to[3 * i + 2] = local[4 * i + 2];
-  }
+void Patches::gather(const Patch& patch, const double* rows) const {
+  const auto first = static_cast<std::size_t>(patch.first_slot);
+  gather_rows(patch.slots, row_counts_.data() + 2 * first, rows_.data() + patch.first_row, rows,
+              partial_.data() + 3 * first);
 }
 
 void Patches::collect(VecX& f) const {

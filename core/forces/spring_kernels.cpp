@@ -22,10 +22,6 @@ struct SpringLanes {
   HWY_INLINE Vec calc_difference(const double* vectors) const {
     return load_nodes(vectors, places + batch_lanes) - load_nodes(vectors, places);
   }
-  HWY_INLINE void add(const Vec& force, double* f) const {
-    const Vec forces[2] = {force, Real(-1.0) * force};
-    add_to_nodes(forces, places, f);
-  }
 };
 
 struct Direction {
@@ -51,19 +47,19 @@ HWY_INLINE Direction calc_direction(Vec d) {
   return {inverse * d, l / scale};
 }
 
-void add_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* f) {
+void calc_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* rows) {
   for (int b = 0; b < springs.count; ++b) {
     for (int part = 0; part < batch_lanes; part += lane_count) {
       const SpringLanes spring(springs, b, part);
       const Direction direction = calc_direction(spring.calc_difference(x));
       const Real stretch = (direction.l - spring.rest_length) * spring.inverse_rest_length;
-      spring.add((Real(k_s) * stretch) * direction.n, f);
+      store_rows((Real(k_s) * stretch) * direction.n, rows + (b * batch_lanes + part) * 4);
     }
   }
 }
 
-double add_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
-                                double* f) {
+double calc_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
+                                 double* rows) {
   LaneSums power;
   for (int b = 0; b < springs.count; ++b) {
     for (int part = 0; part < batch_lanes; part += lane_count) {
@@ -73,7 +69,7 @@ double add_damped_spring_forces(const SpringBatches& springs, double k_s, double
       const Real stretch = (direction.l - spring.rest_length) * spring.inverse_rest_length;
       const Real damping = Real(k_d) * rate * spring.inverse_rest_length;
       power.add(part, damping * rate);
-      spring.add(fma(Real(k_s), stretch, damping) * direction.n, f);
+      store_rows(fma(Real(k_s), stretch, damping) * direction.n, rows + (b * batch_lanes + part) * 4);
     }
   }
   return power.total();
@@ -122,18 +118,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flexcast {
 
-HWY_EXPORT(add_spring_forces);
-HWY_EXPORT(add_damped_spring_forces);
+HWY_EXPORT(calc_spring_forces);
+HWY_EXPORT(calc_damped_spring_forces);
 HWY_EXPORT(calc_spring_energy);
 HWY_EXPORT(sweep_spring_constraints);
 
-void add_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* f) {
-  HWY_DYNAMIC_DISPATCH(add_spring_forces)(springs, k_s, x, f);
+void calc_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* rows) {
+  HWY_DYNAMIC_DISPATCH(calc_spring_forces)(springs, k_s, x, rows);
 }
 
-double add_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
-                                double* f) {
-  return HWY_DYNAMIC_DISPATCH(add_damped_spring_forces)(springs, k_s, k_d, x, v, f);
+double calc_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
+                                 double* rows) {
+  return HWY_DYNAMIC_DISPATCH(calc_damped_spring_forces)(springs, k_s, k_d, x, v, rows);
 }
 
 double calc_spring_energy(const SpringBatches& springs, double k_s, const double* x) {

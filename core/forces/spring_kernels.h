@@ -8,17 +8,17 @@ namespace flexcast {
 // Batches of eight lanes of one patch.
 struct SpringBatches {
   std::int32_t count = 0;
-  const std::uint16_t* places = nullptr;         // [batch][end][lane], of p and q in the patch's vectors
+  const std::uint16_t* places = nullptr;         // [batch][end][lane], where p's and q's vectors begin in the patch's
   const double* rest_lengths = nullptr;          // m, [batch][lane]
   const double* inverse_rest_lengths = nullptr;  // 1/m, [batch][lane]; 0: no spring
 };
 
 // Patch vectors: four doubles a particle, x, y, z and 0. k_s in N, k_d in N.s.
-// f += elastic forces at x.
-void add_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* f);
-// f += elastic and damping forces at x, v; the power that damping takes, W.
-double add_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
-                                double* f);
+// Elastic forces on p at x, as rows [batch][lane][4].
+void calc_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* rows);
+// Elastic and damping forces on p at x, v, as rows; the power that damping takes, W.
+double calc_damped_spring_forces(const SpringBatches& springs, double k_s, double k_d, const double* x, const double* v,
+                                 double* rows);
 // J.
 double calc_spring_energy(const SpringBatches& springs, double k_s, const double* x);
 

@@ -1,5 +1,7 @@
 #include "core/forces/springs.h"
 
+#include <optional>
+
 #include "core/forces/patches.h"
 #include "core/forces/spring.h"
 #include "core/forces/spring_kernels.h"
@@ -25,7 +27,7 @@ class Springs final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
-  std::int64_t constraint_count() const override { return patches_.batch_count() * Patches::lanes; }
+  std::int64_t constraint_count() const override { return layout_for_sweeps().patches.batch_count() * Patches::lanes; }
   void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override;
@@ -42,10 +44,21 @@ class Springs final : public Force {
     A.add(e.q, e.p, -block);
   }
 
-  SpringBatches batches(const Patch& patch) const {
-    const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
-    return {patch.batches, patches_.places(patch.first_batch), rest_lengths_.data() + first,
-            inverse_rest_lengths_.data() + first};
+  // The springs as kernels want them.
+  struct Layout {
+    Patches patches;
+    AlignedVector<double> rest_lengths, inverse_rest_lengths;  // as in SpringBatches
+
+    SpringBatches batches(const Patch& patch) const {
+      const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
+      return {patch.batches, patches.places(patch.first_batch), rest_lengths.data() + first,
+              inverse_rest_lengths.data() + first};
+    }
+  };
+  Layout make_layout(LaneOrder lane_order) const;
+  const Layout& layout_for_sweeps() const {
+    if (!sweeps_) sweeps_ = make_layout(LaneOrder::apart);
+    return *sweeps_;
   }
   double add_both(double stiffness, const VecX& x, const VecX& v, VecX& f) const;
 
@@ -56,32 +69,38 @@ class Springs final : public Force {
   const Model& model_;
   const Body& body_;
   std::vector<Element> elements_;
-  Patches patches_;
-  AlignedVector<double> rest_lengths_, inverse_rest_lengths_;  // as in SpringBatches
+  Layout layout_;
+  mutable std::optional<Layout> sweeps_;  // made when first asked for
   // The springs that meet at a particle of the body, made when first asked for.
   mutable std::vector<std::int32_t> meeting_starts_, meeting_;
 };
 
 Springs::Springs(const Model& model, std::size_t body) : model_(model), body_(model.bodies[body]) {
-  constexpr std::int32_t most_in_patch = 1024;
   elements_.reserve(body_.springs.count);
-  std::vector<std::int32_t> ends;
   for (std::int32_t s = body_.springs.first; s < body_.springs.end(); ++s) {
     const auto [p, q] = model.springs[s];
     elements_.push_back({p, q, (block3(model.rest_positions, q) - block3(model.rest_positions, p)).stableNorm()});
-    ends.insert(ends.end(), {p, q});
   }
-  patches_ = Patches(ends, 2, most_in_patch, model.rest_positions, body_.particles);
-  for (const std::int32_t k : patches_.elements()) {
+  layout_ = make_layout(LaneOrder::spread);
+}
+
+Springs::Layout Springs::make_layout(LaneOrder lane_order) const {
+  std::vector<std::int32_t> ends;
+  ends.reserve(2 * elements_.size());
+  for (const Element& e : elements_) ends.insert(ends.end(), {e.p, e.q});
+  constexpr std::array<NodeRow, 2> node_rows{NodeRow{0, false}, NodeRow{0, true}};  // the force on p, and its reaction
+  Layout layout{Patches(ends, node_rows, lane_order, model_.rest_positions, body_.particles), {}, {}};
+  for (const std::int32_t k : layout.patches.elements()) {
     const double r = elements_[static_cast<std::size_t>(k >= 0 ? k : -1 - k)].r;
-    rest_lengths_.push_back(r);
-    inverse_rest_lengths_.push_back(k >= 0 ? 1.0 / r : 0.0);
+    layout.rest_lengths.push_back(r);
+    layout.inverse_rest_lengths.push_back(k >= 0 ? 1.0 / r : 0.0);
   }
+  return layout;
 }
 
 void Springs::add_conservative(const VecX& x, VecX& f) const {
-  patches_.add_to(x, f, [&](const Patch& patch, const double* local_x, double* local_f) {
-    add_spring_forces(batches(patch), body_.stiffness, local_x, local_f);
+  layout_.patches.add_to(x, f, [&](const Patch& patch, const double* local_x, double* rows) {
+    calc_spring_forces(layout_.batches(patch), body_.stiffness, local_x, rows);
   });
 }
 
@@ -95,15 +114,15 @@ double Springs::add_force(const VecX& x, const VecX& v, VecX& f) const {
 }
 
 double Springs::add_both(double stiffness, const VecX& x, const VecX& v, VecX& f) const {
-  return patches_.add_to(
-      x, v, f, [&](const Patch& patch, const double* local_x, const double* local_v, double* local_f) {
-        return add_damped_spring_forces(batches(patch), stiffness, body_.damping, local_x, local_v, local_f);
+  return layout_.patches.add_to(
+      x, v, f, [&](const Patch& patch, const double* local_x, const double* local_v, double* rows) {
+        return calc_damped_spring_forces(layout_.batches(patch), stiffness, body_.damping, local_x, local_v, rows);
       });
 }
 
 double Springs::calc_energy(const VecX& x) const {
-  return patches_.sum(x, [&](const Patch& patch, const double* local_x) {
-    return calc_spring_energy(batches(patch), body_.stiffness, local_x);
+  return layout_.patches.sum(x, [&](const Patch& patch, const double* local_x) {
+    return calc_spring_energy(layout_.batches(patch), body_.stiffness, local_x);
   });
 }
 
@@ -174,12 +193,13 @@ void Springs::add_damping_blocks(const VecX& x, const VecX& v, double scale, std
 //   dlambda = (-s C - lambda - s_d gradC.u) / ((s + s_d) W + 1),  W = sum_i w_i |grad_i C|^2.
 // Source: M. Macklin, M. Mueller, N. Chentanez, XPBD, Motion in Games 2016, equations 18 and 26.
 void Springs::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
-  patches_.sweep(sweep.start, sweep.inverse_masses, u,
-                 [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
-                   double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
-                   sweep_spring_constraints(
-                       batches(patch), {sweep.h, body_.stiffness, body_.damping, start, inverse_masses, mine, local_u});
-                 });
+  const Layout& layout = layout_for_sweeps();
+  layout.patches.sweep(sweep.start, sweep.inverse_masses, u,
+                       [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
+                         double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
+                         sweep_spring_constraints(layout.batches(patch), {sweep.h, body_.stiffness, body_.damping,
+                                                                          start, inverse_masses, mine, local_u});
+                       });
 }
 
 // A spring of stiffness k between shares of its ends' masses has omega^2 = k (1/m_p + 1/m_q). Shared out in proportion

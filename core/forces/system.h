@@ -23,8 +23,8 @@ class System {
 
   std::int64_t dofs() const { return inverse_masses_.size(); }
   const VecX& rest_positions() const { return model_.rest_positions; }  // m, 3 n
-  const VecX& masses() const { return dof_masses_; }              // kg, 3 n
-  const VecX& inverse_masses() const { return inverse_masses_; }  // 1/kg, 3 n, 0 where held
+  const VecX& masses() const { return dof_masses_; }                    // kg, 3 n
+  const VecX& inverse_masses() const { return inverse_masses_; }        // 1/kg, 3 n, 0 where held
   const VecX& free() const { return free_; }  // 3 n: 1 where free, 0 where held or moved by a handle
   bool has_damping() const { return has_damping_; }
   bool has_handles() const { return !model_.handles.empty(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/forces/block_sums.h"
 #include "core/forces/element.h"
 #include "core/forces/element_modes.h"
 #include "core/forces/incidences.h"
@@ -32,14 +33,13 @@ class Tetrahedra final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
-  std::int64_t constraint_count() const override { return patches_.batch_count() * Patches::lanes; }
+  std::int64_t constraint_count() const override { return layout_for_sweeps().patches.batch_count() * Patches::lanes; }
   void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
   ModeBound calc_mode_bound() const override;
 
  private:
   static constexpr std::size_t points = Shape::points, nodes = Shape::nodes;
-  static constexpr std::int32_t most_in_patch = Shape::nodes == 4 ? 512 : 128;
   using Element = flexcast::Element<Shape>;
 
   Lame lame() const { return calc_lame(body_.young, body_.poisson); }
@@ -49,10 +49,21 @@ class Tetrahedra final : public Force {
   }
   bool small_strain() const { return body_.law->small_strain; }
   ElementLaw element_law() const { return {body_.law, lame(), damping_lame(), small_strain()}; }
-  ElementBatches batches(const Patch& patch) const {
-    const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
-    return {patch.batches, Shape::nodes == 10, patches_.places(patch.first_batch), inverse_edges_.data() + 9 * first,
-            weights_.data() + first};
+  // The elements as kernels want them.
+  struct Layout {
+    Patches patches;
+    AlignedVector<double> inverse_edges, weights;  // as in ElementBatches
+
+    ElementBatches batches(const Patch& patch) const {
+      const std::size_t first = static_cast<std::size_t>(patch.first_batch) * Patches::lanes;
+      return {patch.batches, Shape::nodes == 10, patches.places(patch.first_batch), inverse_edges.data() + 9 * first,
+              weights.data() + first};
+    }
+  };
+  Layout make_layout(LaneOrder lane_order) const;
+  const Layout& layout_for_sweeps() const {
+    if (!sweeps_) sweeps_ = make_layout(LaneOrder::apart);
+    return *sweeps_;
   }
 
   std::int32_t element_count() const { return body_.tetrahedra.count; }
@@ -70,67 +81,69 @@ class Tetrahedra final : public Force {
       }
     }
   }
-  void find_entries(const BlockMatrix& A) const;
-  // Calls add(patch, x of its particles, entries of its elements); patches that share no particle at the same time.
-  template <class Add>
-  void add_to_matrix(const VecX& x, BlockMatrix& A, Add add) const;
+  std::vector<std::int32_t> make_all_nodes() const;
+  // Adds what calc(patch, x of its particles, rows) writes to the matrix.
+  template <class Calc>
+  void add_to_matrix(const VecX& x, BlockMatrix& A, Calc calc) const;
 
   const Model& model_;
   const Body& body_;
-  Patches patches_;
-  AlignedVector<double> inverse_edges_, weights_;  // as in ElementBatches
+  Layout layout_;
   // Made when first asked for, by one thread.
+  mutable std::optional<Layout> sweeps_;
   mutable std::vector<Element> elements_;
   mutable std::optional<Incidences> incidences_;
-  mutable std::uint64_t entries_of_ = 0;       // the pattern that the entries belong to
-  mutable std::vector<std::int32_t> entries_;  // [batch][node][node][lane]
+  mutable std::optional<BlockSums> block_sums_;  // for matrices of one pattern
 };
 
 template <class Shape>
-Tetrahedra<Shape>::Tetrahedra(const Model& model, const Body& body) : model_(model), body_(body) {
-  std::vector<std::int32_t> all_nodes;
-  all_nodes.reserve(nodes * static_cast<std::size_t>(element_count()));
-  for (std::int32_t t = 0; t < element_count(); ++t) {
-    const auto mine = make_nodes<Shape>(model, body, t);
-    all_nodes.insert(all_nodes.end(), mine.begin(), mine.end());
-  }
-  patches_ = Patches(all_nodes, Shape::nodes, most_in_patch, model.rest_positions, body.particles);
-  const std::span<const std::int32_t> order = patches_.elements();
-  inverse_edges_.resize(9 * order.size());
-  weights_.resize(order.size());
+Tetrahedra<Shape>::Tetrahedra(const Model& model, const Body& body)
+    : model_(model), body_(body), layout_(make_layout(LaneOrder::spread)) {}
+
+template <class Shape>
+typename Tetrahedra<Shape>::Layout Tetrahedra<Shape>::make_layout(LaneOrder lane_order) const {
+  std::array<NodeRow, nodes> node_rows;
+  for (std::size_t a = 0; a < nodes; ++a) node_rows[a] = {static_cast<std::int32_t>(a), true};
+  Layout layout{Patches(make_all_nodes(), node_rows, lane_order, model_.rest_positions, body_.particles), {}, {}};
+
+  const std::span<const std::int32_t> order = layout.patches.elements();
+  layout.inverse_edges.resize(9 * order.size());
+  layout.weights.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t batch = k / Patches::lanes, lane = k % Patches::lanes;
-    const RestShape rest = calc_rest_shape(model, body, order[k] >= 0 ? order[k] : -1 - order[k]);
+    const RestShape rest = calc_rest_shape(model_, body_, order[k] >= 0 ? order[k] : -1 - order[k]);
     for (std::size_t entry = 0; entry < 9; ++entry) {
-      inverse_edges_[(9 * batch + entry) * Patches::lanes + lane] =
+      layout.inverse_edges[(9 * batch + entry) * Patches::lanes + lane] =
           rest.inverse_edges.reshaped()[static_cast<int>(entry)];
     }
-    weights_[k] = order[k] >= 0 ? rest.volume / Shape::points : 0.0;
+    layout.weights[k] = order[k] >= 0 ? rest.volume / Shape::points : 0.0;
   }
+  return layout;
 }
 
 template <class Shape>
 void Tetrahedra<Shape>::add_conservative(const VecX& x, VecX& f) const {
   const ElementLaw law = element_law();
-  patches_.add_to(x, f, [&](const Patch& patch, const double* local_x, double* local_f) {
-    add_patch_forces(batches(patch), law, local_x, local_f);
+  layout_.patches.add_to(x, f, [&](const Patch& patch, const double* local_x, double* rows) {
+    calc_patch_forces(layout_.batches(patch), law, local_x, rows);
   });
 }
 
 template <class Shape>
 double Tetrahedra<Shape>::add_damping(const VecX& x, const VecX& v, VecX& f) const {
   const ElementLaw law = element_law();
-  return patches_.add_to(x, v, f,
-                         [&](const Patch& patch, const double* local_x, const double* local_v, double* local_f) {
-                           return add_patch_damping(batches(patch), law, local_x, local_v, local_f);
-                         });
+  return layout_.patches.add_to(x, v, f,
+                                [&](const Patch& patch, const double* local_x, const double* local_v, double* rows) {
+                                  return calc_patch_damping(layout_.batches(patch), law, local_x, local_v, rows);
+                                });
 }
 
 template <class Shape>
 double Tetrahedra<Shape>::calc_energy(const VecX& x) const {
   const ElementLaw law = element_law();
-  return patches_.sum(
-      x, [&](const Patch& patch, const double* local_x) { return calc_patch_energy(batches(patch), law, local_x); });
+  return layout_.patches.sum(x, [&](const Patch& patch, const double* local_x) {
+    return calc_patch_energy(layout_.batches(patch), law, local_x);
+  });
 }
 
 template <class Shape>
@@ -144,39 +157,35 @@ void Tetrahedra<Shape>::add_couplings(std::vector<std::pair<std::int32_t, std::i
 }
 
 template <class Shape>
-void Tetrahedra<Shape>::find_entries(const BlockMatrix& A) const {
-  if (entries_of_ == A.pattern_id()) return;
-  const std::span<const std::int32_t> order = patches_.elements();
-  entries_.resize(nodes * nodes * order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::size_t batch = k / Patches::lanes, lane = k % Patches::lanes;
-    const auto mine = make_nodes<Shape>(model_, body_, order[k] >= 0 ? order[k] : -1 - order[k]);
-    for (std::size_t a = 0; a < nodes; ++a) {
-      for (std::size_t b = 0; b < nodes; ++b) {
-        entries_[((batch * nodes + a) * nodes + b) * Patches::lanes + lane] =
-            static_cast<std::int32_t>(A.find(mine[a], mine[b]));
-      }
-    }
+std::vector<std::int32_t> Tetrahedra<Shape>::make_all_nodes() const {
+  std::vector<std::int32_t> all;
+  all.reserve(nodes * static_cast<std::size_t>(element_count()));
+  for (std::int32_t t = 0; t < element_count(); ++t) {
+    const auto mine = make_nodes<Shape>(model_, body_, t);
+    all.insert(all.end(), mine.begin(), mine.end());
   }
-  entries_of_ = A.pattern_id();
+  return all;
 }
 
 template <class Shape>
-template <class Add>
-void Tetrahedra<Shape>::add_to_matrix(const VecX& x, BlockMatrix& A, Add add) const {
-  find_entries(A);
-  const auto entries_of = [&](const Patch& patch) {
-    return entries_.data() + nodes * nodes * Patches::lanes * static_cast<std::size_t>(patch.first_batch);
-  };
-  patches_.for_apart(x, [&](const Patch& patch, const double* local_x) { add(patch, local_x, entries_of(patch)); });
+template <class Calc>
+void Tetrahedra<Shape>::add_to_matrix(const VecX& x, BlockMatrix& A, Calc calc) const {
+  if (!block_sums_ || block_sums_->pattern_id() != A.pattern_id()) {
+    block_sums_.emplace(layout_.patches, make_all_nodes(), Shape::nodes, A);
+  }
+  layout_.patches.for_apart(x, [&](std::size_t number, const Patch& patch, const double* local_x) {
+    const BlockRows9 rows = block_sums_->scratch();
+    calc(patch, local_x, rows);
+    block_sums_->add(number, rows, A.values());
+  });
 }
 
 template <class Shape>
 void Tetrahedra<Shape>::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
   const ElementLaw law = element_law();
   if (has_stiffness_in_lanes(*law.law, kind)) {
-    add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const std::int32_t* entries) {
-      add_patch_stiffness(batches(patch), law, kind, scale, local_x, entries, A.values());
+    add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const BlockRows9& rows) {
+      calc_patch_stiffness(layout_.batches(patch), law, kind, scale, local_x, rows);
     });
     return;
   }
@@ -194,8 +203,8 @@ template <class Shape>
 void Tetrahedra<Shape>::add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const {
   if (!has_damping()) return;
   const ElementLaw law = element_law();
-  add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const std::int32_t* entries) {
-    add_patch_damping_matrix(batches(patch), law, scale, local_x, entries, A.values());
+  add_to_matrix(x, A, [&](const Patch& patch, const double* local_x, const BlockRows9& rows) {
+    calc_patch_damping_matrix(layout_.batches(patch), law, scale, local_x, rows);
   });
 }
 
@@ -248,12 +257,14 @@ void Tetrahedra<Shape>::add_damping_blocks(const VecX& x, const VecX& v, double 
 template <class Shape>
 void Tetrahedra<Shape>::sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const {
   const ElementLaw law = element_law();
-  patches_.sweep(sweep.start, sweep.inverse_masses, u,
-                 [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
-                   double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
-                   sweep_patch_constraints(batches(patch), law,
-                                           {sweep.h, body_.stiffness_damping, start, inverse_masses, mine, local_u});
-                 });
+  const Layout& layout = layout_for_sweeps();
+  layout.patches.sweep(sweep.start, sweep.inverse_masses, u,
+                       [&](const Patch& patch, const double* start, const double* inverse_masses, double* local_u) {
+                         double* mine = lambda.data() + static_cast<std::ptrdiff_t>(patch.first_batch) * Patches::lanes;
+                         sweep_patch_constraints(
+                             layout.batches(patch), law,
+                             {sweep.h, body_.stiffness_damping, start, inverse_masses, mine, local_u});
+                       });
 }
 
 template <class Shape>

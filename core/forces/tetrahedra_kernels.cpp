@@ -35,10 +35,6 @@ struct PlainKernel {
       out[lane] = calc_plain_energy(*law, mu, lambda, in + lane, batch_lanes);
     return load(out);
   }
-  HWY_INLINE Real calc_energy_and_stress(const Mat& F, Mat& P) const {
-    P = calc_stress(F);
-    return calc_energy(F);
-  }
 };
 
 // Kelvin-Voigt damping. Its matrix is that of St. Venant-Kirchhoff without the part of the present stress.
@@ -73,38 +69,98 @@ struct SmallKelvinVoigtKernel : LinearKernel {
   }
 };
 
+// Points at once: a law may have a better way than one after the other.
+template <int n, class Kernel>
+HWY_INLINE void calc_stresses(const Kernel& kernel, const Mat (&F)[n], Mat (&P)[n]) {
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) P[m] = kernel.calc_stress(F[m]);
+}
+template <int n, class Kernel>
+HWY_INLINE void calc_energies(const Kernel& kernel, const Mat (&F)[n], Real (&Psi)[n]) {
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) Psi[m] = kernel.calc_energy(F[m]);
+}
+template <int n, class Kernel>
+HWY_INLINE void calc_energies_and_stresses(const Kernel& kernel, const Mat (&F)[n], Real (&Psi)[n], Mat (&P)[n]) {
+  calc_energies(kernel, F, Psi);
+  calc_stresses(kernel, F, P);
+}
+
+// Parts of batches, `group` at once: number k is part k of the lanes of a batch, batch after batch.
+constexpr int parts = batch_lanes / lane_count;
+
+template <int group, class Shape>
+struct Elements {
+  ElementLanes<Shape> lanes[group];
+  Mat F[group * Shape::points];
+
+  HWY_INLINE Elements(const ElementBatches& elements, int first, const double* x) {
+    FLEXCAST_UNROLL
+    for (int m = 0; m < group; ++m) {
+      lanes[m] = ElementLanes<Shape>(elements, (first + m) / parts, (first + m) % parts * lane_count);
+      const auto motion = lanes[m].load_motion(x);
+      FLEXCAST_UNROLL
+      for (int q = 0; q < Shape::points; ++q) F[m * Shape::points + q] = lanes[m].calc_gradient(motion, q);
+    }
+  }
+};
+
+template <int group, class Shape, class Kernel>
+HWY_INLINE void calc_forces(const ElementBatches& elements, const Kernel& kernel, int first, const double* x,
+                            double* rows) {
+  const Elements<group, Shape> mine(elements, first, x);
+  Mat P[group * Shape::points];
+  calc_stresses(kernel, mine.F, P);
+  FLEXCAST_UNROLL
+  for (int m = 0; m < group; ++m) {
+    typename Shape::Slopes slopes;
+    FLEXCAST_UNROLL
+    for (int q = 0; q < Shape::points; ++q) {
+      slopes.add(q, mine.lanes[m].calc_point_slopes(P[m * Shape::points + q]));
+    }
+    const int batch = (first + m) / parts, lane = (first + m) % parts * lane_count;
+    mine.lanes[m].store_node_slopes(slopes, rows + (batch * Shape::nodes * batch_lanes + lane) * 4);
+  }
+}
+
 template <class Shape, class Kernel>
-void add_forces(const ElementBatches& elements, const Kernel& kernel, const double* x, double* f) {
-  for (int b = 0; b < elements.count; ++b) {
-    for (int part = 0; part < batch_lanes; part += lane_count) {
-      const ElementLanes<Shape> element(elements, b, part);
-      const auto motion = element.load_motion(x);
-      typename Shape::Slopes slopes;
-      for (int q = 0; q < Shape::points; ++q) {
-        slopes.add(q, element.calc_point_slopes(kernel.calc_stress(element.calc_gradient(motion, q))));
-      }
-      element.subtract(slopes, f);
+void calc_forces(const ElementBatches& elements, const Kernel& kernel, const double* x, double* rows) {
+  constexpr int group = Shape::points == 1 ? 2 : 1;
+  int first = 0;
+  for (; first + group <= elements.count * parts; first += group) {
+    calc_forces<group, Shape>(elements, kernel, first, x, rows);
+  }
+  for (; first < elements.count * parts; ++first) calc_forces<1, Shape>(elements, kernel, first, x, rows);
+}
+
+template <int group, class Shape, class Kernel>
+HWY_INLINE void add_energies(const ElementBatches& elements, const Kernel& kernel, int first, const double* x,
+                             LaneSums& sums) {
+  const Elements<group, Shape> mine(elements, first, x);
+  Real Psi[group * Shape::points];
+  calc_energies(kernel, mine.F, Psi);
+  for (int m = 0; m < group; ++m) {
+    for (int q = 0; q < Shape::points; ++q) {
+      sums.add((first + m) % parts * lane_count, mine.lanes[m].weight * Psi[m * Shape::points + q]);
     }
   }
 }
 
 template <class Shape, class Kernel>
 double calc_energy(const ElementBatches& elements, const Kernel& kernel, const double* x) {
+  constexpr int group = Shape::points == 1 ? 2 : 1;
   LaneSums sums;
-  for (int b = 0; b < elements.count; ++b) {
-    for (int part = 0; part < batch_lanes; part += lane_count) {
-      const ElementLanes<Shape> element(elements, b, part);
-      const auto motion = element.load_motion(x);
-      for (int q = 0; q < Shape::points; ++q) {
-        sums.add(part, element.weight * kernel.calc_energy(element.calc_gradient(motion, q)));
-      }
-    }
+  int first = 0;
+  for (; first + group <= elements.count * parts; first += group) {
+    add_energies<group, Shape>(elements, kernel, first, x, sums);
   }
+  for (; first < elements.count * parts; ++first) add_energies<1, Shape>(elements, kernel, first, x, sums);
   return sums.total();
 }
 
 template <class Shape, class Kernel>
-double add_damping(const ElementBatches& elements, const Kernel& kernel, const double* x, const double* v, double* f) {
+double calc_damping(const ElementBatches& elements, const Kernel& kernel, const double* x, const double* v,
+                    double* rows) {
   LaneSums power;
   for (int b = 0; b < elements.count; ++b) {
     for (int part = 0; part < batch_lanes; part += lane_count) {
@@ -117,7 +173,7 @@ double add_damping(const ElementBatches& elements, const Kernel& kernel, const d
         slopes.add(q, element.calc_point_slopes(P));
         power.add(part, element.weight * dot(P, rate));
       }
-      element.subtract(slopes, f);
+      element.store_node_slopes(slopes, rows + (b * Shape::nodes * batch_lanes + part) * 4);
     }
   }
   return power.total();
@@ -136,12 +192,15 @@ void sweep_constraints(const ElementBatches& elements, const Kernel& kernel, con
         x[a] = load_nodes(sweep.start, element.places + a * batch_lanes) + moved[a];
       }
       const auto motion = Shape::make_motion(x);
+      Mat F[Shape::points], P[Shape::points];
+      Real Psi[Shape::points];
+      for (int q = 0; q < Shape::points; ++q) F[q] = element.calc_gradient(motion, q);
+      calc_energies_and_stresses(kernel, F, Psi, P);
       Real U = 0.0;
       typename Shape::Slopes slopes;
       for (int q = 0; q < Shape::points; ++q) {
-        Mat P;
-        U = fma(element.weight, kernel.calc_energy_and_stress(element.calc_gradient(motion, q), P), U);
-        slopes.add(q, element.calc_point_slopes(P));
+        U = fma(element.weight, Psi[q], U);
+        slopes.add(q, element.calc_point_slopes(P[q]));
       }
       Vec grad_U[Shape::nodes], move[Shape::nodes];
       slopes.calc_node_slopes(grad_U);
@@ -175,14 +234,12 @@ void sweep_constraints(const ElementBatches& elements, const Kernel& kernel, con
   }
 }
 
-// Blocks of the nodes a <= b; those below the diagonal are their transposes.
 template <bool clamped, class Shape, class Kernel>
-void add_stiffness(const ElementBatches& elements, const Kernel& kernel, double scale, const double* x,
-                   const std::int32_t* entries, double* values) {
-  constexpr int n = Shape::nodes;
+void calc_stiffness(const ElementBatches& elements, const Kernel& kernel, double scale, const double* x,
+                    const BlockRows9& rows) {
+  constexpr int n = Shape::nodes, pairs = n * (n + 1) / 2;
   for (int b = 0; b < elements.count; ++b) {
     for (int part = 0; part < batch_lanes; part += lane_count) {
-      const std::int32_t* to = entries + static_cast<std::int64_t>(b) * n * n * batch_lanes + part;
       const ElementLanes<Shape> element(elements, b, part);
       const auto motion = element.load_motion(x);
       const Real weight = Real(scale) * element.weight;
@@ -192,15 +249,28 @@ void add_stiffness(const ElementBatches& elements, const Kernel& kernel, double 
         points[q] = kernel.template calc_point<clamped>(element.calc_gradient(motion, q));
         for (int a = 0; a < n; ++a) nodes[q][a] = kernel.calc_node(points[q], element.calc_shape_gradient(q, a));
       }
-      for (int i = 0; i < n; ++i) {
-        for (int j = i; j < n; ++j) {
-          Mat block = kernel.calc_block(points[0], nodes[0][i], nodes[0][j]);
-          for (int q = 1; q < Shape::points; ++q) {
-            block = block + kernel.calc_block(points[q], nodes[q][i], nodes[q][j]);
-          }
-          block = weight * block;
-          add_to_blocks(block, to + (i * n + j) * batch_lanes, values);
-          if (j != i) add_to_blocks(transpose(block), to + (j * n + i) * batch_lanes, values);
+      const auto calc_block = [&](int i, int j) HWY_ATTR {
+        Mat block = kernel.calc_block(points[0], nodes[0][i], nodes[0][j]);
+        for (int q = 1; q < Shape::points; ++q) block = block + kernel.calc_block(points[q], nodes[q][i], nodes[q][j]);
+        return weight * block;
+      };
+      const int row = b * pairs * batch_lanes + part;
+      const auto put = [&](int pair, const Mat& block) HWY_ATTR {
+        store_blocks(block, rows.entries + 8 * (row + pair * batch_lanes), rows.lasts + row + pair * batch_lanes);
+      };
+      if constexpr (n == 4) {
+        // A motion as a whole strains nothing: the blocks of a row add up to zero.
+        const Mat K11 = calc_block(1, 1), K12 = calc_block(1, 2), K13 = calc_block(1, 3);
+        const Mat K22 = calc_block(2, 2), K23 = calc_block(2, 3), K33 = calc_block(3, 3);
+        put(4, K11), put(5, K12), put(6, K13), put(7, K22), put(8, K23), put(9, K33);
+        const Mat K10 = Real(-1.0) * (K11 + K12 + K13), K20 = Real(-1.0) * (transpose(K12) + K22 + K23);
+        const Mat K30 = Real(-1.0) * (transpose(K13) + transpose(K23) + K33);
+        put(0, Real(-1.0) * (K10 + K20 + K30));
+        put(1, transpose(K10)), put(2, transpose(K20)), put(3, transpose(K30));
+      } else {
+        int pair = 0;
+        for (int i = 0; i < n; ++i) {
+          for (int j = i; j < n; ++j) put(pair++, calc_block(i, j));
         }
       }
     }
@@ -249,18 +319,18 @@ HWY_INLINE void choose_damping(const ElementBatches& elements, const ElementLaw&
   }
 }
 
-struct AddForces {
+struct CalcForces {
   const ElementBatches& elements;
   const double* x;
-  double* f;
+  double* rows;
   template <class Shape>
   void run(const auto& kernel) {
-    add_forces<Shape>(elements, kernel, x, f);
+    calc_forces<Shape>(elements, kernel, x, rows);
   }
 };
 
-void add_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* f) {
-  AddForces visit{elements, x, f};
+void calc_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* rows) {
+  CalcForces visit{elements, x, rows};
   if (!choose_kernel(elements, law, visit)) {
     choose_shape(elements, visit, PlainKernel{law.law, law.lame.mu, law.lame.lambda});
   }
@@ -284,21 +354,21 @@ double calc_patch_energy(const ElementBatches& elements, const ElementLaw& law, 
   return visit.energy;
 }
 
-struct AddDamping {
+struct CalcDamping {
   const ElementBatches& elements;
   const double* x;
   const double* v;
-  double* f;
+  double* rows;
   double power = 0.0;
   template <class Shape>
   void run(const auto& kernel) {
-    power = add_damping<Shape>(elements, kernel, x, v, f);
+    power = calc_damping<Shape>(elements, kernel, x, v, rows);
   }
 };
 
-double add_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
-                         double* f) {
-  AddDamping visit{elements, x, v, f};
+double calc_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
+                          double* rows) {
+  CalcDamping visit{elements, x, v, rows};
   choose_damping(elements, law, visit);
   return visit.power;
 }
@@ -320,32 +390,31 @@ void sweep_patch_constraints(const ElementBatches& elements, const ElementLaw& l
 }
 
 template <bool clamped>
-struct AddStiffness {
+struct CalcStiffness {
   const ElementBatches& elements;
   double scale;
   const double* x;
-  const std::int32_t* entries;
-  double* values;
+  const BlockRows9& rows;
   template <class Shape>
   void run(const auto& kernel) {
-    add_stiffness<clamped, Shape>(elements, kernel, scale, x, entries, values);
+    calc_stiffness<clamped, Shape>(elements, kernel, scale, x, rows);
   }
 };
 
-void add_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
-                         const double* x, const std::int32_t* entries, double* values) {
+void calc_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
+                          const double* x, const BlockRows9& rows) {
   if (kind == Tangent::positive_semidefinite && law.law->kernel == LawKernel::corotational) {
-    AddStiffness<true> visit{elements, scale, x, entries, values};
+    CalcStiffness<true> visit{elements, scale, x, rows};
     choose_shape(elements, visit, CorotationalKernel{law.lame.mu, law.lame.lambda, law.lame.mu, law.lame.lambda});
   } else {
-    AddStiffness<false> visit{elements, scale, x, entries, values};
+    CalcStiffness<false> visit{elements, scale, x, rows};
     choose_kernel(elements, law, visit);
   }
 }
 
-void add_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
-                              const std::int32_t* entries, double* values) {
-  AddStiffness<false> visit{elements, scale, x, entries, values};
+void calc_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
+                               const BlockRows9& rows) {
+  CalcStiffness<false> visit{elements, scale, x, rows};
   choose_damping(elements, law, visit);
 }
 
@@ -356,24 +425,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flexcast {
 
-HWY_EXPORT(add_patch_forces);
+HWY_EXPORT(calc_patch_forces);
 HWY_EXPORT(calc_patch_energy);
-HWY_EXPORT(add_patch_damping);
+HWY_EXPORT(calc_patch_damping);
 HWY_EXPORT(sweep_patch_constraints);
-HWY_EXPORT(add_patch_stiffness);
-HWY_EXPORT(add_patch_damping_matrix);
+HWY_EXPORT(calc_patch_stiffness);
+HWY_EXPORT(calc_patch_damping_matrix);
 
-void add_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* f) {
-  HWY_DYNAMIC_DISPATCH(add_patch_forces)(elements, law, x, f);
+void calc_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* rows) {
+  HWY_DYNAMIC_DISPATCH(calc_patch_forces)(elements, law, x, rows);
 }
 
 double calc_patch_energy(const ElementBatches& elements, const ElementLaw& law, const double* x) {
   return HWY_DYNAMIC_DISPATCH(calc_patch_energy)(elements, law, x);
 }
 
-double add_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
-                         double* f) {
-  return HWY_DYNAMIC_DISPATCH(add_patch_damping)(elements, law, x, v, f);
+double calc_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
+                          double* rows) {
+  return HWY_DYNAMIC_DISPATCH(calc_patch_damping)(elements, law, x, v, rows);
 }
 
 void sweep_patch_constraints(const ElementBatches& elements, const ElementLaw& law, const PatchSweep& sweep) {
@@ -385,14 +454,14 @@ bool has_stiffness_in_lanes(const Law& law, Tangent kind) {
   return law.kernel != LawKernel::none && kind == Tangent::exact;
 }
 
-void add_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
-                         const double* x, const std::int32_t* entries, double* values) {
-  HWY_DYNAMIC_DISPATCH(add_patch_stiffness)(elements, law, kind, scale, x, entries, values);
+void calc_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
+                          const double* x, const BlockRows9& rows) {
+  HWY_DYNAMIC_DISPATCH(calc_patch_stiffness)(elements, law, kind, scale, x, rows);
 }
 
-void add_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
-                              const std::int32_t* entries, double* values) {
-  HWY_DYNAMIC_DISPATCH(add_patch_damping_matrix)(elements, law, scale, x, entries, values);
+void calc_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
+                               const BlockRows9& rows) {
+  HWY_DYNAMIC_DISPATCH(calc_patch_damping_matrix)(elements, law, scale, x, rows);
 }
 
 }  // namespace flexcast

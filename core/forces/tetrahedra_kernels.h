@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/forces/block_sums.h"
 #include "core/materials/law.h"
 
 namespace flexcast {
@@ -12,7 +13,7 @@ namespace flexcast {
 struct ElementBatches {
   std::int32_t count = 0;
   bool quadratic = false;
-  const std::uint16_t* places = nullptr;  // [batch][node][lane], of nodes in the patch's vectors
+  const std::uint16_t* places = nullptr;  // [batch][node][lane], where nodes' vectors begin in the patch's
   const double* inverse_edges = nullptr;  // 1/m, [batch][9][lane], column by column [X1-X0, X2-X0, X3-X0]^-1
   const double* weights = nullptr;        // m^3, [batch][lane], the rest volume of a quadrature point; 0: no element
 };
@@ -26,13 +27,13 @@ struct ElementLaw {
 };
 
 // Patch vectors: four doubles a particle, x, y, z and 0.
-// f += forces at x.
-void add_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* f);
+// Minus the forces at x, as rows [batch][node][lane][4].
+void calc_patch_forces(const ElementBatches& elements, const ElementLaw& law, const double* x, double* rows);
 // The energy at x, J.
 double calc_patch_energy(const ElementBatches& elements, const ElementLaw& law, const double* x);
-// f += damping forces at x, v; the power they take, W.
-double add_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
-                         double* f);
+// Minus the damping forces at x, v, as rows; the power they take, W.
+double calc_patch_damping(const ElementBatches& elements, const ElementLaw& law, const double* x, const double* v,
+                          double* rows);
 
 // One sweep of position-based dynamics over the elements: see sweep_constraints in tetrahedra.cpp. All of positions
 // start, displacements u from there and inverse masses are patch vectors; lambda is [batch][lane].
@@ -46,14 +47,13 @@ struct PatchSweep {
 };
 void sweep_patch_constraints(const ElementBatches& elements, const ElementLaw& law, const PatchSweep& sweep);
 
-// Whether add_patch_stiffness knows that kind of tangent.
+// Whether calc_patch_stiffness knows that kind of tangent.
 bool has_stiffness_in_lanes(const Law& law, Tangent kind);
-// Adds scale times the stiffness of the elements to 3 x 3 blocks of a matrix, column by column at values + 9
-// entries[k]: entries are [batch][node a][node b][lane].
-void add_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
-                         const double* x, const std::int32_t* entries, double* values);
+// scale times the stiffness of the elements, a row of block_sums.h for every pair of nodes a <= b.
+void calc_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
+                          const double* x, const BlockRows9& rows);
 // The same of damping.
-void add_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
-                              const std::int32_t* entries, double* values);
+void calc_patch_damping_matrix(const ElementBatches& elements, const ElementLaw& law, double scale, const double* x,
+                               const BlockRows9& rows);
 
 }  // namespace flexcast

@@ -17,12 +17,21 @@ struct CorotationalKernel {
   Real mu, lambda;
   double plain_mu, plain_lambda;
 
-  HWY_INLINE Mat calc_stress(const Mat& F) const { return calc_stress(F, calc_polar(F)); }
-  HWY_INLINE Real calc_energy(const Mat& F) const { return calc_energy(F, calc_polar(F)); }
-  HWY_INLINE Real calc_energy_and_stress(const Mat& F, Mat& P) const {
-    const PolarLanes polar = calc_polar(F);
-    P = calc_stress(F, polar);
-    return calc_energy(F, polar);
+  HWY_INLINE Mat calc_stress(const Mat& F, const PolarScalars& scalars) const {
+    // 2 mu F + k Q with k = lambda tr(S - I) - 2 mu, without Q: F times a symmetric matrix, and cof F.
+    const Real k = fma(lambda, scalars.trace - Real(3.0), Real(-2.0) * mu);
+    const Mat S = add_to_diagonal(-(k * scalars.g) * scalars.C, fma(k, scalars.f, Real(2.0) * mu));
+    Mat P = fma(k * scalars.c, scalars.cofactor, F * S);
+    if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), scalars.sure))) {
+      P = choose(scalars.sure, P, calc_stress(F, calc_polar(F, scalars)));
+    }
+    return P;
+  }
+  HWY_INLINE Real calc_energy(const Mat& F, const PolarScalars& scalars) const {
+    const PolarLanes polar = calc_polar(F, scalars);
+    const Mat stretch = F - polar.Q;
+    const Real t = polar.trace - Real(3.0);
+    return fma(mu, dot(stretch, stretch), Real(0.5) * lambda * t * t);
   }
 
   // With q = Q g and [q] b = q x b: g_a . dP/dF . g_b = 2 mu (q_a . q_b) I + lambda q_a q_b^T + [q_a] W [q_b]^T, where
@@ -32,6 +41,7 @@ struct CorotationalKernel {
   };
   struct Node {
     Vec q;
+    Mat rows;  // those of [q] W as columns
   };
   template <bool clamped>
   HWY_INLINE Point calc_point(const Mat& F) const {
@@ -53,22 +63,19 @@ struct CorotationalKernel {
     if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), sure))) calc_plain_twists<clamped>(S, hn::Not(sure), W);
     return {polar.Q, polar.Q * W * transpose(polar.Q)};
   }
-  HWY_INLINE Node calc_node(const Point& point, const Vec& g) const { return {point.Q * g}; }
-  HWY_INLINE Mat calc_block(const Point& point, const Node& a, const Node& b) const {
-    // Row i of [q_a] W [q_b]^T is q_b x (row i of [q_a] W), whose columns are q_a x W_j.
-    const Mat turned = transpose({cross(a.q, point.W.c0), cross(a.q, point.W.c1), cross(a.q, point.W.c2)});
-    const Mat twist = transpose({cross(b.q, turned.c0), cross(b.q, turned.c1), cross(b.q, turned.c2)});
+  HWY_INLINE Node calc_node(const Point& point, const Vec& g) const {
+    const Vec q = point.Q * g;
+    return {q, transpose({cross(q, point.W.c0), cross(q, point.W.c1), cross(q, point.W.c2)})};
+  }
+  HWY_INLINE Mat calc_block(const Point&, const Node& a, const Node& b) const {
+    // Row i of A [q]^T is q x (row i of A).
+    const Mat twist = transpose({cross(b.q, a.rows.c0), cross(b.q, a.rows.c1), cross(b.q, a.rows.c2)});
     return add_to_diagonal(twist + outer(lambda * a.q, b.q), Real(2.0) * mu * dot(a.q, b.q));
   }
 
  private:
   HWY_INLINE Mat calc_stress(const Mat& F, const PolarLanes& polar) const {
     return fma(Real(2.0) * mu, F - polar.Q, lambda * (polar.trace - Real(3.0)) * polar.Q);
-  }
-  HWY_INLINE Real calc_energy(const Mat& F, const PolarLanes& polar) const {
-    const Mat stretch = F - polar.Q;
-    const Real t = polar.trace - Real(3.0);
-    return fma(mu, dot(stretch, stretch), Real(0.5) * lambda * t * t);
   }
   template <bool clamped>
   HWY_NOINLINE void calc_plain_twists(const Mat& S, hn::Mask<Lanes> where, Mat& W) const {
@@ -82,6 +89,32 @@ struct CorotationalKernel {
     W = load_mat(out);
   }
 };
+
+template <int n>
+HWY_INLINE void calc_stresses(const CorotationalKernel& kernel, const Mat (&F)[n], Mat (&P)[n]) {
+  PolarScalars scalars[n];
+  calc_polar_scalars(F, scalars);
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) P[m] = kernel.calc_stress(F[m], scalars[m]);
+}
+template <int n>
+HWY_INLINE void calc_energies(const CorotationalKernel& kernel, const Mat (&F)[n], Real (&Psi)[n]) {
+  PolarScalars scalars[n];
+  calc_polar_scalars(F, scalars);
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) Psi[m] = kernel.calc_energy(F[m], scalars[m]);
+}
+template <int n>
+HWY_INLINE void calc_energies_and_stresses(const CorotationalKernel& kernel, const Mat (&F)[n], Real (&Psi)[n],
+                                           Mat (&P)[n]) {
+  PolarScalars scalars[n];
+  calc_polar_scalars(F, scalars);
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) {
+    Psi[m] = kernel.calc_energy(F[m], scalars[m]);
+    P[m] = kernel.calc_stress(F[m], scalars[m]);
+  }
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace flexcast

@@ -25,11 +25,6 @@ struct LinearKernel {
     return fma(mu, dot(e, e), Real(0.5) * lambda * t * t);
   }
 
-  HWY_INLINE Real calc_energy_and_stress(const Mat& F, Mat& P) const {
-    P = calc_stress(F);
-    return calc_energy(F);
-  }
-
   // g_a . dP/dF . g_b = mu (g_a . g_b) I + mu g_b g_a^T + lambda g_a g_b^T.
   struct Point {};
   struct Node {

@@ -34,11 +34,6 @@ struct NeoHookeanKernel {
     return fma(mu, fma(Real(2.0 / 3.0), logarithmic, distortion), Real(0.5) * calc_l() * j * j);
   }
 
-  HWY_INLINE Real calc_energy_and_stress(const Mat& F, Mat& P) const {
-    P = calc_stress(F);
-    return calc_energy(F);
-  }
-
   // With f = F g, h = cof F g, p = l (J - 1) - mu: g_a . dP/dF . g_b =
   //   factor (g_a . g_b) I + 2 mu / (3 (t + 2)^2) f_a f_b^T + l h_a h_b^T - p [F (g_a x g_b)].
   struct Point {

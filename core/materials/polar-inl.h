@@ -24,6 +24,51 @@ struct PolarLanes {
   Real trace;  // of S
 };
 
+// Q = f F + c cof F - g F C with C = F^T F, in lanes where that is sure.
+struct PolarScalars {
+  Mat C, cofactor;
+  Real f, c, g, trace;
+  hn::Mask<Lanes> sure;
+};
+
+// Several at once: the root takes a long chain of operations, which fills the time of the others'.
+template <int n>
+HWY_INLINE void calc_polar_scalars(const Mat (&F)[n], PolarScalars (&polar)[n]) {
+  Real a[n], b[n], d[n], i[n], change[n];
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) {
+    polar[m].C = calc_gram(F[m]);
+    polar[m].cofactor = calc_cofactor(F[m]);
+    a[m] = trace(polar[m].C);
+    b[m] = Real(-4.0) * dot(polar[m].cofactor, polar[m].cofactor);
+    d[m] = dot(F[m].c0, polar[m].cofactor.c0);
+    i[m] = sqrt(Real(3.0) * a[m]);
+  }
+  // Halley's method from above, where it converges monotonically: three times as many digits each time.
+  FLEXCAST_UNROLL
+  for (int k = 0; k < 3; ++k) {
+    FLEXCAST_UNROLL
+    for (int m = 0; m < n; ++m) {
+      const Real ii = fma(i[m], i[m], -a[m]);
+      const Real p = fma(ii, ii, fnma(Real(8.0) * d[m], i[m], b[m]));
+      const Real slope = Real(4.0) * fma(i[m], ii, Real(-2.0) * d[m]);
+      const Real curvature = fma(Real(12.0) * i[m], i[m], Real(-4.0) * a[m]);
+      change[m] = (Real(2.0) * p * slope) / fma(Real(2.0) * slope, slope, -(p * curvature));
+      i[m] = i[m] - change[m];
+    }
+  }
+  FLEXCAST_UNROLL
+  for (int m = 0; m < n; ++m) {
+    const Real product = fma(Real(0.5) * i[m], fma(i[m], i[m], -a[m]), -d[m]);
+    polar[m].g = Real(1.0) / product;
+    polar[m].c = i[m] * polar[m].g;
+    polar[m].f = Real(0.5) * fma(i[m], i[m], a[m]) * polar[m].g;
+    polar[m].trace = i[m];
+    polar[m].sure = hn::And(hn::Ge(product.v, (Real(0.05) * i[m] * i[m] * i[m]).v),
+                            hn::Le(hn::Abs(change[m].v), (Real(1e-6) * i[m]).v));
+  }
+}
+
 // Replaces Q in the lanes of a mask by the plain result.
 HWY_NOINLINE void calc_plain_rotations(const Mat& F, hn::Mask<Lanes> where, Mat& Q) {
   HWY_ALIGN double in[9 * batch_lanes], out[9 * batch_lanes], chosen[lane_count];
@@ -36,30 +81,19 @@ HWY_NOINLINE void calc_plain_rotations(const Mat& F, hn::Mask<Lanes> where, Mat&
   Q = load_mat(out);
 }
 
-HWY_INLINE PolarLanes calc_polar(const Mat& F) {
-  const Mat C = calc_gram(F), cofactor = calc_cofactor(F);
-  const Real a = trace(C), b = dot(cofactor, cofactor), d = dot(F.c0, cofactor.c0);
-  // Halley's method from above, where it converges monotonically: three times as many digits each time.
-  Real i = sqrt(Real(3.0) * a), change = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const Real ii = fma(i, i, -a);
-    const Real p = fma(ii, ii, fnma(Real(8.0) * d, i, Real(-4.0) * b));
-    const Real slope = Real(4.0) * fma(i, ii, Real(-2.0) * d), curvature = fma(Real(12.0) * i, i, Real(-4.0) * a);
-    change = (Real(2.0) * p * slope) / fma(Real(2.0) * slope, slope, -(p * curvature));
-    i = i - change;
-  }
-  const Real product = fma(Real(0.5) * i, fma(i, i, -a), -d);
-  PolarLanes polar;
-  polar.Q = fma(Real(0.5) * fma(i, i, a), F, i * cofactor) - F * C;
-  polar.Q = (Real(1.0) / product) * polar.Q;
-  polar.trace = i;
-  const auto sure =
-      hn::And(hn::Ge(product.v, (Real(0.05) * i * i * i).v), hn::Le(hn::Abs(change.v), (Real(1e-6) * i).v));
-  if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), sure))) {
-    calc_plain_rotations(F, hn::Not(sure), polar.Q);
-    polar.trace = Real(hn::IfThenElse(sure, polar.trace.v, dot(polar.Q, F).v));
+HWY_INLINE PolarLanes calc_polar(const Mat& F, const PolarScalars& scalars) {
+  PolarLanes polar{fma(scalars.f, F, scalars.c * scalars.cofactor) - F * (scalars.g * scalars.C), scalars.trace};
+  if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), scalars.sure))) {
+    calc_plain_rotations(F, hn::Not(scalars.sure), polar.Q);
+    polar.trace = Real(hn::IfThenElse(scalars.sure, polar.trace.v, dot(polar.Q, F).v));
   }
   return polar;
+}
+HWY_INLINE PolarLanes calc_polar(const Mat& F) {
+  const Mat one[1] = {F};
+  PolarScalars scalars[1];
+  calc_polar_scalars(one, scalars);
+  return calc_polar(F, scalars[0]);
 }
 
 }  // namespace HWY_NAMESPACE

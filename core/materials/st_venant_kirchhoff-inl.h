@@ -27,11 +27,6 @@ struct StVenantKirchhoffKernel {
     return fma(mu, dot(e, e), Real(0.5) * lambda * t * t);
   }
 
-  HWY_INLINE Real calc_energy_and_stress(const Mat& F, Mat& P) const {
-    P = calc_stress(F);
-    return calc_energy(F);
-  }
-
   // With f = F g, S the second stress: g_a . dP/dF . g_b =
   //   (g_a . S g_b) I + mu ((g_a . g_b) F F^T + f_b f_a^T) + lambda f_a f_b^T.
   struct Point {
