@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "core/base/block_product.h"
 #include "core/base/checks.h"
@@ -20,7 +21,7 @@ std::uint64_t make_pattern_id() {
 }  // namespace
 
 // Counting sort by row, then each short row by itself.
-BlockMatrix::BlockMatrix(std::int32_t rows, const Pairs& pairs) : pattern_id_(make_pattern_id()) {
+BlockPattern::BlockPattern(std::int32_t rows, const Pairs& pairs) : id(make_pattern_id()) {
   const auto n = static_cast<std::size_t>(rows);
   std::vector<std::int64_t> next(n + 1, 0);
   for (std::size_t i = 0; i < n; ++i) next[i + 1] = 1;
@@ -30,32 +31,34 @@ BlockMatrix::BlockMatrix(std::int32_t rows, const Pairs& pairs) : pattern_id_(ma
     ++next[static_cast<std::size_t>(j) + 1];
   }
   for (std::size_t i = 0; i < n; ++i) next[i + 1] += next[i];
-  columns_.resize(static_cast<std::size_t>(next[n]));
-  starts_ = next;
-  for (std::int32_t i = 0; i < rows; ++i) columns_[static_cast<std::size_t>(next[i]++)] = i;
+  columns.resize(static_cast<std::size_t>(next[n]));
+  starts = next;
+  for (std::int32_t i = 0; i < rows; ++i) columns[static_cast<std::size_t>(next[i]++)] = i;
   for (const auto& [i, j] : pairs) {
     if (i == j) continue;
-    columns_[static_cast<std::size_t>(next[i]++)] = j;
-    columns_[static_cast<std::size_t>(next[j]++)] = i;
+    columns[static_cast<std::size_t>(next[i]++)] = j;
+    columns[static_cast<std::size_t>(next[j]++)] = i;
   }
 
-  diagonals_.resize(n);
+  diagonals.resize(n);
   std::int64_t filled = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto first = columns_.begin() + starts_[i], end = columns_.begin() + starts_[i + 1];
+    const auto first = columns.begin() + starts[i], end = columns.begin() + starts[i + 1];
     std::sort(first, end);
     const auto unique_end = std::unique(first, end);
     const auto diagonal = std::lower_bound(first, unique_end, static_cast<std::int32_t>(i));
-    diagonals_[i] = filled + (diagonal - first);
-    std::copy(first, unique_end, columns_.begin() + filled);
-    starts_[i] = filled;
+    diagonals[i] = filled + (diagonal - first);
+    std::copy(first, unique_end, columns.begin() + filled);
+    starts[i] = filled;
     filled += unique_end - first;
   }
-  starts_[n] = filled;
-  columns_.resize(static_cast<std::size_t>(filled));
-  columns_.shrink_to_fit();
-  blocks_.assign(columns_.size() + 1, Mat3::Zero());
+  starts[n] = filled;
+  columns.resize(static_cast<std::size_t>(filled));
+  columns.shrink_to_fit();
 }
+
+BlockMatrix::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
+    : pattern_(std::move(pattern)), blocks_(pattern_->columns.size() + 1, Mat3::Zero()) {}
 
 void BlockMatrix::set_zero() {
   parallel_for(static_cast<std::int64_t>(blocks_.size()), 8192,
@@ -70,30 +73,31 @@ void BlockMatrix::assign_values(const BlockMatrix& other) {
 }
 
 std::int64_t BlockMatrix::find(std::int32_t i, std::int32_t j) const {
-  const auto begin = columns_.begin() + starts_[i], end = columns_.begin() + starts_[i + 1];
+  const auto begin = pattern_->columns.begin() + pattern_->starts[i],
+             end = pattern_->columns.begin() + pattern_->starts[i + 1];
   const auto found = std::lower_bound(begin, end, j);
   FLEXCAST_CHECK(found != end && *found == j);
-  return found - columns_.begin();
+  return found - pattern_->columns.begin();
 }
 
 void BlockMatrix::add_diagonal(const VecX& diagonal) {
-  for (std::int32_t i = 0; i < rows(); ++i) blocks_[diagonals_[i]].diagonal() += block3(diagonal, i);
+  for (std::int32_t i = 0; i < rows(); ++i) blocks_[pattern_->diagonals[i]].diagonal() += block3(diagonal, i);
 }
 
 // Couplings are symmetric: who is coupled to a held particle stands in that particle's row.
 void BlockMatrix::hold(const VecX& free) {
   const auto apply = [&](std::int32_t i, std::int64_t k) {
-    const Vec3 row_free = block3(free, i), column_free = block3(free, columns_[k]);
+    const Vec3 row_free = block3(free, i), column_free = block3(free, pattern_->columns[k]);
     blocks_[k] = row_free.asDiagonal() * blocks_[k] * column_free.asDiagonal();
   };
   for (std::int32_t i = 0; i < rows(); ++i) {
     const Vec3 row_free = block3(free, i);
     if (row_free == Vec3::Ones()) continue;
-    for (std::int64_t k = starts_[i]; k < starts_[i + 1]; ++k) {
+    for (std::int64_t k = pattern_->starts[i]; k < pattern_->starts[i + 1]; ++k) {
       apply(i, k);
-      if (columns_[k] != i) apply(columns_[k], find(columns_[k], i));
+      if (pattern_->columns[k] != i) apply(pattern_->columns[k], find(pattern_->columns[k], i));
     }
-    blocks_[diagonals_[i]].diagonal() += Vec3::Ones() - row_free;
+    blocks_[pattern_->diagonals[i]].diagonal() += Vec3::Ones() - row_free;
   }
 }
 

@@ -2,6 +2,7 @@
 // diagonal. Rows are stored one after the other with ascending columns, blocks column by column, without gaps.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,18 +19,30 @@ struct BlockRows {
   const double* values = nullptr;  // 9 a block; three more may be read behind the last one
 };
 
-class BlockMatrix {
- public:
+// Which blocks there are. Matrices share it.
+struct BlockPattern {
   using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-  BlockMatrix() = default;
-  // The pattern: every pair in both directions, and the diagonal. Pairs may repeat.
-  BlockMatrix(std::int32_t rows, const Pairs& pairs);
+  // Every pair in both directions, and the diagonal. Pairs may repeat.
+  BlockPattern(std::int32_t rows, const Pairs& pairs);
 
-  std::int32_t rows() const { return static_cast<std::int32_t>(starts_.empty() ? 0 : starts_.size() - 1); }
-  std::int64_t block_count() const { return static_cast<std::int64_t>(columns_.size()); }
-  // Of all patterns ever made, this one's number; copies have the same.
-  std::uint64_t pattern_id() const { return pattern_id_; }
+  std::uint64_t id = 0;                 // of all patterns ever made, this one's number
+  std::vector<std::int64_t> starts;     // rows + 1
+  std::vector<std::int64_t> diagonals;  // rows: where the diagonal block is
+  std::vector<std::int32_t> columns;
+};
+
+class BlockMatrix {
+ public:
+  using Pairs = BlockPattern::Pairs;
+
+  BlockMatrix() : BlockMatrix(0, {}) {}
+  explicit BlockMatrix(std::shared_ptr<const BlockPattern> pattern);
+  BlockMatrix(std::int32_t rows, const Pairs& pairs) : BlockMatrix(std::make_shared<BlockPattern>(rows, pairs)) {}
+
+  std::int32_t rows() const { return static_cast<std::int32_t>(pattern_->diagonals.size()); }
+  std::int64_t block_count() const { return static_cast<std::int64_t>(pattern_->columns.size()); }
+  std::uint64_t pattern_id() const { return pattern_->id; }
 
   void set_zero();
   // The values of a matrix with the same pattern.
@@ -56,21 +69,22 @@ class BlockMatrix {
   double multiply_dot(const VecX& x, VecX& y, std::vector<double>& partial) const;
 
   std::span<const std::int32_t> columns(std::int32_t row) const {
-    return {columns_.data() + starts_[row], static_cast<std::size_t>(starts_[row + 1] - starts_[row])};
+    return {pattern_->columns.data() + pattern_->starts[row],
+            static_cast<std::size_t>(pattern_->starts[row + 1] - pattern_->starts[row])};
   }
   std::span<const Mat3> blocks(std::int32_t row) const {
-    return {blocks_.data() + starts_[row], static_cast<std::size_t>(starts_[row + 1] - starts_[row])};
+    return {blocks_.data() + pattern_->starts[row],
+            static_cast<std::size_t>(pattern_->starts[row + 1] - pattern_->starts[row])};
   }
-  std::int64_t start(std::int32_t row) const { return starts_[row]; }
-  const Mat3& diagonal(std::int32_t row) const { return blocks_[diagonals_[row]]; }
-  BlockRows block_rows() const { return {starts_.data(), diagonals_.data(), columns_.data(), values()}; }
+  std::int64_t start(std::int32_t row) const { return pattern_->starts[row]; }
+  const Mat3& diagonal(std::int32_t row) const { return blocks_[pattern_->diagonals[row]]; }
+  BlockRows block_rows() const {
+    return {pattern_->starts.data(), pattern_->diagonals.data(), pattern_->columns.data(), values()};
+  }
 
  private:
-  std::uint64_t pattern_id_ = 0;
-  std::vector<std::int64_t> starts_;     // rows + 1
-  std::vector<std::int64_t> diagonals_;  // rows: where the diagonal block is
-  std::vector<std::int32_t> columns_;
-  std::vector<Mat3> blocks_ = {Mat3::Zero()};  // and one more, so that kernels may read behind the last
+  std::shared_ptr<const BlockPattern> pattern_;  // copies and matrices of the same scene have it in common
+  std::vector<Mat3> blocks_;                     // and one more, so that kernels may read behind the last
 };
 
 }  // namespace flexcast

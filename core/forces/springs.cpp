@@ -37,12 +37,9 @@ class Springs final : public Force {
     std::int32_t p, q;
     double r;
   };
-  static void add_pair(const Element& e, const Mat3& block, BlockMatrix& A) {
-    A.add(e.p, e.p, block);
-    A.add(e.q, e.q, block);
-    A.add(e.p, e.q, -block);
-    A.add(e.q, e.p, -block);
-  }
+  // Calls calc(e) for every spring and adds the block to the diagonals of its ends, subtracts it between them.
+  template <class Calc>
+  void add_to_matrix(BlockMatrix& A, Calc calc) const;
 
   // The springs as kernels want them.
   struct Layout {
@@ -70,7 +67,9 @@ class Springs final : public Force {
   const Body& body_;
   std::vector<Element> elements_;
   Layout layout_;
-  mutable std::optional<Layout> sweeps_;  // made when first asked for
+  mutable std::uint64_t places_of_ = 0;                      // the pattern of the matrices that have places_
+  mutable std::vector<std::array<std::int64_t, 4>> places_;  // of a spring's blocks pp, qq, pq, qp
+  mutable std::optional<Layout> sweeps_;                     // made when first asked for
   // The springs that meet at a particle of the body, made when first asked for.
   mutable std::vector<std::int32_t> meeting_starts_, meeting_;
 };
@@ -130,19 +129,38 @@ void Springs::add_couplings(std::vector<std::pair<std::int32_t, std::int32_t>>& 
   for (const Element& e : elements_) pairs.emplace_back(e.p, e.q);
 }
 
-void Springs::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
-  for (const Element& e : elements_) {
-    const Vec3 d = block3(x, e.q) - block3(x, e.p);
-    add_pair(e, scale * calc_spring_tangent(d, e.r, body_.stiffness, kind), A);
+template <class Calc>
+void Springs::add_to_matrix(BlockMatrix& A, Calc calc) const {
+  if (places_of_ != A.pattern_id()) {
+    places_.clear();
+    for (const auto& [p, q, r] : elements_) {
+      places_.push_back({A.find(p, p), A.find(q, q), A.find(p, q), A.find(q, p)});
+    }
+    places_of_ = A.pattern_id();
   }
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const Mat3 block = calc(elements_[k]);
+    const auto& [pp, qq, pq, qp] = places_[k];
+    Eigen::Map<Mat3>(A.value(pp)) += block;
+    Eigen::Map<Mat3>(A.value(qq)) += block;
+    Eigen::Map<Mat3>(A.value(pq)) -= block;
+    Eigen::Map<Mat3>(A.value(qp)) -= block;
+  }
+}
+
+void Springs::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {
+  add_to_matrix(A, [&](const Element& e) {
+    const Vec3 d = block3(x, e.q) - block3(x, e.p);
+    return Mat3(scale * calc_spring_tangent(d, e.r, body_.stiffness, kind));
+  });
 }
 
 void Springs::add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const {
   if (!has_damping()) return;
-  for (const Element& e : elements_) {
+  add_to_matrix(A, [&](const Element& e) {
     const Vec3 n = calc_spring_direction(block3(x, e.q) - block3(x, e.p)).n;
-    add_pair(e, scale * body_.damping / e.r * n * n.transpose(), A);
-  }
+    return Mat3(scale * body_.damping / e.r * n * n.transpose());
+  });
 }
 
 template <class Visit>

@@ -132,7 +132,10 @@ std::vector<std::pair<std::int32_t, std::int32_t>> System::make_couplings() cons
 }
 
 BlockMatrix System::make_matrix() const {
-  return BlockMatrix(static_cast<std::int32_t>(model_.particle_count()), make_couplings());
+  if (!pattern_) {
+    pattern_ = std::make_shared<BlockPattern>(static_cast<std::int32_t>(model_.particle_count()), make_couplings());
+  }
+  return BlockMatrix(pattern_);
 }
 
 void System::add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const {

@@ -46,7 +46,7 @@ class System {
   // J, of the position-dependent forces.
   double calc_position_dependent_energy(const VecX& x) const;
 
-  // The pattern of all couplings, zero values.
+  // The pattern of all couplings, zero values. All matrices of a system share the pattern.
   BlockMatrix make_matrix() const;
   void add_stiffness(const VecX& x, double scale, Tangent kind, BlockMatrix& A) const;
   void add_damping_matrix(const VecX& x, double scale, BlockMatrix& A) const;
@@ -85,6 +85,7 @@ class System {
   double calc_stiffness_norm() const;
 
   const Model& model_;
+  mutable std::shared_ptr<const BlockPattern> pattern_;  // made when first asked for
   std::vector<std::unique_ptr<Force>> forces_;
   std::vector<const Force*> active_, varying_;  // varying: those of the active ones that depend on the state
   VecX dof_masses_, inverse_masses_, free_;
