@@ -178,6 +178,14 @@ HWY_INLINE void store_mat(const Mat& A, double* to) {
   for (int i = 0; i < 9; ++i) store(entries[i], to + i * n);
 }
 
+// Where a vector of four doubles begins: small places say it, numbers count vectors.
+HWY_INLINE std::int64_t find_begin(std::uint16_t place) {
+  return place;
+}
+HWY_INLINE std::int64_t find_begin(std::int32_t number) {
+  return 4 * static_cast<std::int64_t>(number);
+}
+
 // Vectors of four doubles, one a lane: lane i of a, b, c, d is in row i, or with eight lanes rows 0 to 3 hold those of
 // the lanes i (lower half) and i + 4 (upper half).
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
@@ -199,10 +207,11 @@ HWY_INLINE hn::Vec<Four> lower_half(hn::Vec<Lanes> row) {
 }
 #endif
 
-HWY_INLINE hn::Vec<Lanes> load_row(const double* array, const std::uint16_t* places, int i) {
-  const auto lower = hn::Load(Four(), array + places[i]);
+template <class Place>
+HWY_INLINE hn::Vec<Lanes> load_row(const double* array, const Place* places, int i) {
+  const auto lower = hn::Load(Four(), array + find_begin(places[i]));
 #if HWY_TARGET == HWY_AVX3
-  return hn::Combine(Lanes(), hn::Load(Four(), array + places[i + 4]), lower);
+  return hn::Combine(Lanes(), hn::Load(Four(), array + find_begin(places[i + 4])), lower);
 #else
   return lower;
 #endif
@@ -222,8 +231,9 @@ HWY_INLINE void add_row(hn::Vec<Four> row, double* to) {
 }
 #endif
 
-// The vectors that begin at places[lane] of an array of x, y, z, 0; places are those of the part's first lane on.
-HWY_INLINE Vec load_nodes(const double* array, const std::uint16_t* places) {
+// The vectors at places[lane] of an array of x, y, z, 0; places are those of the part's first lane on.
+template <class Place>
+HWY_INLINE Vec load_nodes(const double* array, const Place* places) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   const auto r0 = load_row(array, places, 0), r1 = load_row(array, places, 1);
   const auto r2 = load_row(array, places, 2), r3 = load_row(array, places, 3);
@@ -234,7 +244,7 @@ HWY_INLINE Vec load_nodes(const double* array, const std::uint16_t* places) {
 #else
   HWY_ALIGN double x[lane_count], y[lane_count], z[lane_count];
   for (int lane = 0; lane < lane_count; ++lane) {
-    const double* from = array + places[lane];
+    const double* from = array + find_begin(places[lane]);
     x[lane] = from[0];
     y[lane] = from[1];
     z[lane] = from[2];

@@ -3,11 +3,13 @@
 // symmetric and positive semidefinite, so that implicit schemes can freeze D at the start of a step.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/block_matrix.h"
+#include "core/forces/block_runs.h"
 #include "core/forces/model.h"
 
 namespace flexcast {
@@ -78,6 +80,8 @@ class Force {
   virtual void add_damping_blocks(const VecX& /*x*/, const VecX& /*v*/, double /*scale*/,
                                   std::span<const std::int32_t> /*particles*/, std::span<Vec3> /*f*/,
                                   std::span<Mat3> /*K*/) const {}
+  // Both in lanes, for visits to be made many times. Null: the functions above will do.
+  virtual std::unique_ptr<BlockRuns> make_block_runs(const Visits& /*visits*/) const { return nullptr; }
 
   // For position-based dynamics: how many multipliers of compliant constraints there are, and one sweep over these that
   // changes the displacements u from the start of the step and the multipliers.

@@ -10,7 +10,7 @@ namespace flexcast {
 void gather_rows(std::int32_t slots, const std::uint16_t* counts, const std::uint16_t* list, const double* rows,
                  double* sums);
 
-// The 3 x 3 blocks of a matrix += sums of rows: see block_sums.h.
+// The 3 x 3 blocks of a matrix += sums of rows: see matrix_gather.h.
 void gather_blocks(std::int32_t blocks, const std::int32_t* places, const std::uint16_t* counts,
                    const std::uint16_t* list, const double* entries, const double* lasts, double* values);
 

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include "core/base/simd-inl.h"
+#include "core/forces/spring_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace flexcast {
@@ -23,29 +24,6 @@ struct SpringLanes {
     return load_nodes(vectors, places + batch_lanes) - load_nodes(vectors, places);
   }
 };
-
-struct Direction {
-  Vec n;
-  Real l;
-};
-
-// spring.h's bounds: squares of shorter and longer lengths leave the range of a double. Such lanes are scaled first, by
-// a power of two; coincident ends have no direction.
-HWY_INLINE Direction calc_direction(Vec d) {
-  Real squared = dot(d, d), scale = 1.0;
-  const auto usual = hn::And(hn::Gt(squared.v, Real(1e-280).v), hn::Lt(squared.v, Real(1e280).v));
-  if (HWY_UNLIKELY(!hn::AllTrue(Lanes(), usual))) {
-    constexpr double huge = 0x1p600;
-    const Real size = max(max(hn::Abs(d.x.v), hn::Abs(d.y.v)), Real(hn::Abs(d.z.v)));
-    const Real factor = hn::IfThenElse(hn::Lt(size.v, Real(1.0).v), Real(huge).v, Real(1.0 / huge).v);
-    scale = hn::IfThenElse(usual, Real(1.0).v, factor.v);
-    d = scale * d;
-    squared = dot(d, d);
-  }
-  const Real l = sqrt(squared);
-  const Real inverse = hn::IfThenElseZero(hn::Gt(l.v, hn::Zero(Lanes())), (Real(1.0) / l).v);
-  return {inverse * d, l / scale};
-}
 
 void calc_spring_forces(const SpringBatches& springs, double k_s, const double* x, double* rows) {
   for (int b = 0; b < springs.count; ++b) {

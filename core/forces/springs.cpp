@@ -5,6 +5,7 @@
 #include "core/forces/patches.h"
 #include "core/forces/spring.h"
 #include "core/forces/spring_kernels.h"
+#include "core/forces/spring_runs.h"
 
 namespace flexcast {
 namespace {
@@ -27,6 +28,9 @@ class Springs final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
+  std::unique_ptr<BlockRuns> make_block_runs(const Visits& visits) const override {
+    return make_spring_runs(model_, body_, visits);
+  }
   std::int64_t constraint_count() const override { return layout_for_sweeps().patches.batch_count() * Patches::lanes; }
   void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <optional>
 
-#include "core/forces/block_sums.h"
 #include "core/forces/element.h"
+#include "core/forces/element_law.h"
 #include "core/forces/element_modes.h"
 #include "core/forces/incidences.h"
 #include "core/forces/kelvin_voigt.h"
+#include "core/forces/matrix_gather.h"
 #include "core/forces/patches.h"
 #include "core/forces/tetrahedra_kernels.h"
+#include "core/forces/tetrahedra_runs.h"
 
 namespace flexcast {
 namespace {
@@ -33,6 +35,9 @@ class Tetrahedra final : public Force {
                   std::span<Mat3> K) const override;
   void add_damping_blocks(const VecX& x, const VecX& v, double scale, std::span<const std::int32_t> particles,
                           std::span<Vec3> f, std::span<Mat3> K) const override;
+  std::unique_ptr<BlockRuns> make_block_runs(const Visits& visits) const override {
+    return make_tetrahedra_runs(model_, body_, visits);
+  }
   std::int64_t constraint_count() const override { return layout_for_sweeps().patches.batch_count() * Patches::lanes; }
   void sweep_constraints(const ConstraintSweep& sweep, std::span<double> lambda, VecX& u) const override;
   std::int32_t body() const override { return static_cast<std::int32_t>(&body_ - model_.bodies.data()); }
@@ -42,13 +47,8 @@ class Tetrahedra final : public Force {
   static constexpr std::size_t points = Shape::points, nodes = Shape::nodes;
   using Element = flexcast::Element<Shape>;
 
-  Lame lame() const { return calc_lame(body_.young, body_.poisson); }
-  Lame damping_lame() const {
-    const Lame elastic = lame();
-    return {body_.stiffness_damping * elastic.mu, body_.stiffness_damping * elastic.lambda};
-  }
-  bool small_strain() const { return body_.law->small_strain; }
-  ElementLaw element_law() const { return {body_.law, lame(), damping_lame(), small_strain()}; }
+  Lame lame() const { return element_law().lame; }
+  ElementLaw element_law() const { return make_element_law(body_); }
   // The elements as kernels want them.
   struct Layout {
     Patches patches;
@@ -93,7 +93,7 @@ class Tetrahedra final : public Force {
   mutable std::optional<Layout> sweeps_;
   mutable std::vector<Element> elements_;
   mutable std::optional<Incidences> incidences_;
-  mutable std::optional<BlockSums> block_sums_;  // for matrices of one pattern
+  mutable std::optional<MatrixGather> matrix_gather_;  // for matrices of one pattern
 };
 
 template <class Shape>
@@ -170,13 +170,13 @@ std::vector<std::int32_t> Tetrahedra<Shape>::make_all_nodes() const {
 template <class Shape>
 template <class Calc>
 void Tetrahedra<Shape>::add_to_matrix(const VecX& x, BlockMatrix& A, Calc calc) const {
-  if (!block_sums_ || block_sums_->pattern_id() != A.pattern_id()) {
-    block_sums_.emplace(layout_.patches, make_all_nodes(), Shape::nodes, A);
+  if (!matrix_gather_ || matrix_gather_->pattern_id() != A.pattern_id()) {
+    matrix_gather_.emplace(layout_.patches, make_all_nodes(), Shape::nodes, A);
   }
   layout_.patches.for_apart(x, [&](std::size_t number, const Patch& patch, const double* local_x) {
-    const BlockRows9 rows = block_sums_->scratch();
+    const BlockRows9 rows = matrix_gather_->scratch();
     calc(patch, local_x, rows);
-    block_sums_->add(number, rows, A.values());
+    matrix_gather_->add(number, rows, A.values());
   });
 }
 
@@ -231,17 +231,17 @@ void Tetrahedra<Shape>::add_damping_blocks(const VecX& x, const VecX& v, double 
                                            std::span<const std::int32_t> particles, std::span<Vec3> f,
                                            std::span<Mat3> K) const {
   if (!has_damping()) return;
-  const Lame viscosity = damping_lame();
+  const auto [law, lame, viscosity, small_strain] = element_law();
   std::array<Mat3, points> F, rate;
   for_incidences(particles, [&](std::size_t i, const Element& e, std::int32_t node) {
     e.calc_gradients(x, F);
     e.calc_gradients(v, rate);
     for (std::size_t q = 0; q < points; ++q) {
       const Vec3 g = e.calc_gradient(q, node);
-      f[i] -= e.weight * calc_kelvin_voigt_stress(viscosity, small_strain(), F[q], rate[q]) * g;
+      f[i] -= e.weight * calc_kelvin_voigt_stress(viscosity, small_strain, F[q], rate[q]) * g;
       for (int k = 0; k < 3; ++k) {
         const Mat3 unit = Vec3::Unit(k) * g.transpose();  // the node moves along axis k, the others rest
-        K[i].col(k) += scale * e.weight * calc_kelvin_voigt_stress(viscosity, small_strain(), F[q], unit) * g;
+        K[i].col(k) += scale * e.weight * calc_kelvin_voigt_stress(viscosity, small_strain, F[q], unit) * g;
       }
     }
   });

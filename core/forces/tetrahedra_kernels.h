@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/forces/block_sums.h"
+#include "core/forces/matrix_gather.h"
 #include "core/materials/law.h"
 
 namespace flexcast {
@@ -49,7 +49,7 @@ void sweep_patch_constraints(const ElementBatches& elements, const ElementLaw& l
 
 // Whether calc_patch_stiffness knows that kind of tangent.
 bool has_stiffness_in_lanes(const Law& law, Tangent kind);
-// scale times the stiffness of the elements, a row of block_sums.h for every pair of nodes a <= b.
+// scale times the stiffness of the elements, a row of matrix_gather.h for every pair of nodes a <= b.
 void calc_patch_stiffness(const ElementBatches& elements, const ElementLaw& law, Tangent kind, double scale,
                           const double* x, const BlockRows9& rows);
 // The same of damping.

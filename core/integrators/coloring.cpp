@@ -4,8 +4,7 @@
 
 namespace flexcast {
 
-std::vector<std::vector<std::int32_t>> make_colors(std::int32_t particles,
-                                                   std::vector<std::pair<std::int32_t, std::int32_t>> couplings) {
+std::vector<std::vector<std::int32_t>> make_colors(std::int32_t particles, Couplings couplings) {
   // Only neighbours with smaller numbers have a colour when a particle's turn comes.
   for (auto& [i, j] : couplings) {
     if (i < j) std::swap(i, j);
@@ -26,6 +25,31 @@ std::vector<std::vector<std::int32_t>> make_colors(std::int32_t particles,
     colors[static_cast<std::size_t>(color)].push_back(i);
   }
   return colors;
+}
+
+VisitOrder::VisitOrder(std::int32_t particles, Couplings couplings) {
+  constexpr std::size_t stretch = 1024, run = Visits::most_in_run;
+  std::vector<std::int32_t> counts(static_cast<std::size_t>(particles), 0);
+  for (const auto& [i, j] : couplings) ++counts[static_cast<std::size_t>(i)], ++counts[static_cast<std::size_t>(j)];
+  visits.particles.reserve(static_cast<std::size_t>(particles));
+  visits.starts.push_back(0);
+  color_starts.push_back(0);
+  for (std::vector<std::int32_t>& color : make_colors(particles, std::move(couplings))) {
+    for (std::size_t first = 0; first < color.size(); first += stretch) {
+      const auto begin = color.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto end = color.begin() + static_cast<std::ptrdiff_t>(std::min(color.size(), first + stretch));
+      std::stable_sort(begin, end, [&](std::int32_t a, std::int32_t b) {
+        return counts[static_cast<std::size_t>(a)] > counts[static_cast<std::size_t>(b)];
+      });
+    }
+    const std::size_t start = visits.particles.size();
+    visits.particles.insert(visits.particles.end(), color.begin(), color.end());
+    for (std::size_t end = start; end < visits.particles.size();) {
+      end = std::min(visits.particles.size(), end + run);
+      visits.starts.push_back(static_cast<std::int32_t>(end));
+    }
+    color_starts.push_back(visits.run_count());
+  }
 }
 
 }  // namespace flexcast

@@ -73,6 +73,45 @@ struct CorotationalKernel {
     return add_to_diagonal(twist + outer(lambda * a.q, b.q), Real(2.0) * mu * dot(a.q, b.q));
   }
 
+  // P g and g . dP/dF . g of one g, without eigenvectors. With f = F g, q = Q g and T = tr(S) I - Q S Q^T, whose
+  // eigenvalues are the sums of two stretches, [q] T^-1 [q]^T = ((q . t) T - t t^T) / det T where t = T q =
+  // tr(S) q - f. So the block is
+  //   2 mu (q . q) I + lambda q q^T + (factor / det T) ((q . t) T - t t^T),   factor = lambda tr(S - I) - 2 mu,
+  // positive as long as all c_k > -2 mu. They are exact where they are at least -1.5 mu, that is where the sums are at
+  // least -factor / (1.5 mu); elsewhere factor is raised until they must be, as no sum is below det T / tr(S)^2 (the
+  // mean of the other two is at most tr(S)): the block is positive, and nowhere below the exact one.
+  HWY_INLINE void calc_own(const Mat& F, const Vec& g, Vec& slope, Mat& block) const {
+    constexpr double most = 1.5;
+    const Vec f = F * g;
+    const auto [q, V, i, product] = calc_left_polar(F, f, g);
+    const Vec t = fma(i, q, Real(-1.0) * f);
+    const Real stretch = i - Real(3.0);
+    slope = fma(Real(2.0) * mu, f - q, lambda * stretch * q);
+    const Real xx = i - V.xx, yy = i - V.yy, zz = i - V.zz, yx = -V.yx, zx = -V.zx, zy = -V.zy;
+
+    const auto zero = hn::Zero(Lanes());
+    Real factor = fma(lambda, stretch, Real(-2.0) * mu);
+    const Real least = factor * (Real(-1.0 / most) / mu);
+    const Real a = xx - least, b = yy - least, c = zz - least;
+    const Real minor = fnma(yx, yx, a * b), mixed = fnma(yx, zx, a * zy);
+    const Real rest = fnma(mixed, mixed, minor * fnma(zx, zx, a * c));  // a times the determinant
+    const auto sure = hn::And(hn::Gt(a.v, zero), hn::And(hn::Gt(minor.v, zero), hn::Gt(rest.v, zero)));
+
+    const Real size = max(i, Real(1e-6));  // nothing is divided by zero
+    const Real determinant = max(product, Real(1e-6) * size * size * size);
+    const Real bounded = max(factor, Real(-most) * mu * determinant / (size * size));
+    factor = hn::IfThenElse(sure, factor.v, bounded.v);
+    const Real twist = factor / determinant, along = twist * dot(q, t);
+    const Vec lq = lambda * q, tt = twist * t;
+    const Real isotropic = Real(2.0) * mu * dot(q, q);
+    block.c0.x = fma(along, xx, isotropic) + fnma(tt.x, t.x, lq.x * q.x);
+    block.c1.y = fma(along, yy, isotropic) + fnma(tt.y, t.y, lq.y * q.y);
+    block.c2.z = fma(along, zz, isotropic) + fnma(tt.z, t.z, lq.z * q.z);
+    block.c0.y = block.c1.x = fma(along, yx, fnma(tt.y, t.x, lq.y * q.x));
+    block.c0.z = block.c2.x = fma(along, zx, fnma(tt.z, t.x, lq.z * q.x));
+    block.c1.z = block.c2.y = fma(along, zy, fnma(tt.z, t.y, lq.z * q.y));
+  }
+
  private:
   HWY_INLINE Mat calc_stress(const Mat& F, const PolarLanes& polar) const {
     return fma(Real(2.0) * mu, F - polar.Q, lambda * (polar.trace - Real(3.0)) * polar.Q);

@@ -1,4 +1,4 @@
-#include "core/forces/block_sums.h"
+#include "core/forces/matrix_gather.h"
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 
 namespace flexcast {
 
-BlockSums::BlockSums(const Patches& patches, std::span<const std::int32_t> nodes, int nodes_per_element,
-                     const BlockMatrix& A)
+MatrixGather::MatrixGather(const Patches& patches, std::span<const std::int32_t> nodes, int nodes_per_element,
+                           const BlockMatrix& A)
     : pattern_id_(A.pattern_id()) {
   FLEXCAST_CHECK(A.block_count() < (std::int64_t{1} << 31));
   const auto n = static_cast<std::size_t>(nodes_per_element);
@@ -56,13 +56,13 @@ BlockSums::BlockSums(const Patches& patches, std::span<const std::int32_t> nodes
   rows_.shrink_to_fit();
 }
 
-BlockRows9 BlockSums::scratch() const {
+BlockRows9 MatrixGather::scratch() const {
   thread_local AlignedVector<double> values;
   if (values.size() < 9 * most_rows_) values.resize(9 * most_rows_);
   return {values.data(), values.data() + 8 * most_rows_};
 }
 
-void BlockSums::add(std::size_t patch, const BlockRows9& rows, double* values) const {
+void MatrixGather::add(std::size_t patch, const BlockRows9& rows, double* values) const {
   const Part& part = parts_[patch];
   gather_blocks(part.blocks, places_.data() + 2 * part.first_block, counts_.data() + 2 * part.first_block,
                 rows_.data() + part.first_row, rows.entries, rows.lasts, values);

@@ -19,10 +19,11 @@ struct BlockRows9 {
   double* lasts = nullptr;
 };
 
-class BlockSums {
+class MatrixGather {
  public:
   // `nodes`: particles of an element, nodes_per_element each. Matrices of A's pattern.
-  BlockSums(const Patches& patches, std::span<const std::int32_t> nodes, int nodes_per_element, const BlockMatrix& A);
+  MatrixGather(const Patches& patches, std::span<const std::int32_t> nodes, int nodes_per_element,
+               const BlockMatrix& A);
 
   std::uint64_t pattern_id() const { return pattern_id_; }
   // Of this thread, for any patch; kept for the next.
