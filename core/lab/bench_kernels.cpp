@@ -1,6 +1,8 @@
 #include "core/lab/bench_kernels.h"
 
 #include "core/lab/bench_state.h"
+#include "core/solvers/block_jacobi.h"
+#include "core/solvers/pcg.h"
 
 namespace flexcast {
 
@@ -14,7 +16,8 @@ Kernels::Kernels(const Model& model)
       tangent_(system_.make_matrix()),
       A_(tangent_) {
   make_matrix();
-  choose_tolerance();
+  choose_tolerance(Iterations::plain);
+  choose_tolerance(Iterations::chosen);
 }
 
 // M / h^2 + K, positive definite.
@@ -26,16 +29,21 @@ void Kernels::make_matrix() {
   A_.hold(system_.free());
 }
 
-void Kernels::choose_tolerance() {
+void Kernels::choose_tolerance(Iterations kind) {
   constexpr int wanted = 20;  // iterations
+  Solve& mine = solve(kind);
   for (double tolerance = 0.1; tolerance > 1e-12; tolerance *= 0.1) {
-    SolverSettings settings;
-    settings.linear = "pcg";
-    settings.linear_tolerance = tolerance;
-    solver_ = make_linear_solver(settings, system_.rest_positions());
-    if (run_long_solve() >= wanted) break;
+    if (kind == Iterations::plain) {
+      mine.solver = std::make_unique<PcgSolver>(tolerance, std::make_unique<BlockJacobi>());
+    } else {
+      SolverSettings settings;
+      settings.linear = "pcg";
+      settings.linear_tolerance = tolerance;
+      mine.solver = make_linear_solver(settings, system_.rest_positions());
+    }
+    if (run_long_solve(kind) >= wanted) break;
   }
-  solution_ = u_;
+  mine.solution = u_;
 }
 
 void Kernels::run_scalar_force() {
@@ -48,14 +56,14 @@ void Kernels::run_tangent() {
   system_.add_stiffness(x_, 1.0, Tangent::exact, tangent_);
 }
 
-int Kernels::run_long_solve() {
+int Kernels::run_long_solve(Iterations kind) {
   u_.setZero(b_.size());
-  return solver_->solve(A_, b_, u_).iterations;
+  return solve(kind).solver->solve(A_, b_, u_).iterations;
 }
 
-int Kernels::run_short_solve() {
-  u_ = solution_;
-  return solver_->solve(A_, b_, u_).iterations;
+int Kernels::run_short_solve(Iterations kind) {
+  u_ = solve(kind).solution;
+  return solve(kind).solver->solve(A_, b_, u_).iterations;
 }
 
 KernelTurns::KernelTurns(Kernels& kernels, Turns& turns, const std::function<void()>& prepare) : first_(turns.count()) {
@@ -63,21 +71,27 @@ KernelTurns::KernelTurns(Kernels& kernels, Turns& turns, const std::function<voi
   turns.add([&] { kernels.run_scalar_force(); }, prepare);
   turns.add([&] { kernels.run_copy(); }, prepare);
   turns.add([&] { kernels.run_tangent(); }, prepare);
-  turns.add([this, &kernels] { long_iterations_ = kernels.run_long_solve(); }, prepare);
-  turns.add([this, &kernels] { short_iterations_ = kernels.run_short_solve(); }, prepare);
+  using Iterations = Kernels::Iterations;
+  turns.add([this, &kernels] { plain_.of_long = kernels.run_long_solve(Iterations::plain); }, prepare);
+  turns.add([this, &kernels] { plain_.of_short = kernels.run_short_solve(Iterations::plain); }, prepare);
+  turns.add([this, &kernels] { chosen_.of_long = kernels.run_long_solve(Iterations::chosen); }, prepare);
+  turns.add([this, &kernels] { chosen_.of_short = kernels.run_short_solve(Iterations::chosen); }, prepare);
 }
 
 KernelTimes KernelTurns::calc_times(const std::vector<double>& seconds) const {
   const double* mine = seconds.data() + first_;
-  KernelTimes times{mine[0], mine[1], mine[2], mine[3], 0.0};
   // What precedes the first iteration is in both solves.
-  const int more = long_iterations_ - short_iterations_;
-  if (more > 0 && mine[4] > mine[5]) {
-    times.cg_iteration = (mine[4] - mine[5]) / more;
-  } else if (long_iterations_ > 0) {
-    times.cg_iteration = mine[4] / long_iterations_;
-  }
-  return times;
+  const auto calc_iteration = [](const Counts& counts, double of_long, double of_short) {
+    const int more = counts.of_long - counts.of_short;
+    if (more > 0 && of_long > of_short) return (of_long - of_short) / more;
+    return counts.of_long > 0 ? of_long / counts.of_long : 0.0;
+  };
+  return {mine[0],
+          mine[1],
+          mine[2],
+          mine[3],
+          calc_iteration(plain_, mine[4], mine[5]),
+          calc_iteration(chosen_, mine[6], mine[7])};
 }
 
 }  // namespace flexcast

@@ -39,7 +39,8 @@ std::optional<double> calc_kernel_share(const TimeSettings& time, const StepTime
   const double substeps = time.substeps;
   double seconds = substeps * (row.name == "rk4" ? 4.0 : 1.0) * kernels.force;
   if (row.implicit) {
-    seconds += steps.iterations * (kernels.tangent + kernels.force) + steps.linear_iterations * kernels.cg_iteration;
+    seconds +=
+        steps.iterations * (kernels.tangent + kernels.force) + steps.linear_iterations * kernels.chosen_iteration;
   }
   return seconds / steps.seconds;
 }

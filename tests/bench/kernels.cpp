@@ -37,7 +37,8 @@ constexpr Kernel kernel_table[] = {
     {"plain_force", [](Kernels& kernels) { return kernels.run_scalar_force(), 0; }},
     {"copy", [](Kernels& kernels) { return kernels.run_copy(), 0; }},
     {"tangent", [](Kernels& kernels) { return kernels.run_tangent(), 0; }},
-    {"solve", [](Kernels& kernels) { return kernels.run_long_solve(); }},
+    {"plain solve", [](Kernels& kernels) { return kernels.run_long_solve(Kernels::Iterations::plain); }},
+    {"solve", [](Kernels& kernels) { return kernels.run_long_solve(Kernels::Iterations::chosen); }},
 };
 
 void run(benchmark::State& state, const NamedScene& scene, const Kernel& kernel, const NamedVariant& variant) {

@@ -70,16 +70,18 @@ std::vector<ReportRow> measure_kernel_rows(const NamedScene& scene, const TurnSe
   }
   const std::vector<double> seconds = turns.measure(settings);
   take(variants[0]);
-  std::vector<double> force, tangent, cg_iteration;
+  std::vector<double> force, tangent, cg_iteration, chosen_iteration;
   for (const auto& of_variant : tasks) {
     const KernelTimes times = of_variant->calc_times(seconds);
     force.push_back(times.force);
     tangent.push_back(times.tangent);
     cg_iteration.push_back(times.cg_iteration);
+    chosen_iteration.push_back(times.chosen_iteration);
   }
   std::vector<ReportRow> rows = {make_row(scene, "force", simulation->model(), force),
                                  make_row(scene, "tangent", simulation->model(), tangent),
-                                 make_row(scene, "CG iteration", simulation->model(), cg_iteration)};
+                                 make_row(scene, "CG iteration", simulation->model(), cg_iteration),
+                                 make_row(scene, "preconditioned", simulation->model(), chosen_iteration)};
   const KernelTimes times = tasks[0]->calc_times(seconds);
   rows[0].plain_loop = times.scalar_force;
   rows[0].copy = times.copy;
