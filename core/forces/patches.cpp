@@ -109,8 +109,12 @@ struct Patches::Draft {
 Patches::Patches(std::span<const std::int32_t> nodes, std::span<const NodeRow> node_rows, LaneOrder lane_order,
                  const VecX& rest_positions, IndexRange particles)
     : nodes_per_element_(node_rows.size()), node_rows_(node_rows.begin(), node_rows.end()), particles_(particles) {
-  const std::vector<std::int32_t> order =
-      make_order(nodes, static_cast<int>(nodes_per_element_), rest_positions, particles);
+  // What moves particles one after the other does it in the order of the mesh: the curve would turn with the scene.
+  std::vector<std::int32_t> order(nodes.size() / nodes_per_element_);
+  std::iota(order.begin(), order.end(), 0);
+  if (lane_order == LaneOrder::spread) {
+    order = make_order(nodes, static_cast<int>(nodes_per_element_), rest_positions, particles);
+  }
   std::int32_t rows_per_element = 1;
   for (const NodeRow& one : node_rows) rows_per_element = std::max(rows_per_element, one.row + 1);
   const auto most_elements = static_cast<std::size_t>(most_rows / rows_per_element / lanes * lanes);

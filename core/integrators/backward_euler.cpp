@@ -15,7 +15,7 @@ class BackwardEuler final : public Integrator {
     solver_.stage().start(system, state, h, 0.0);
     solver_.solve(system, statistics);
     statistics.dissipated += h * solver_.calc_dissipated_power();
-    solver_.finish(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, state, statistics);
+    solver_.finish(system, h, {.reach = 1.0, .time = h, .past = 0.0}, state, statistics);
   }
 
  private:

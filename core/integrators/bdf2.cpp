@@ -23,7 +23,7 @@ class Bdf2 final : public Integrator {
     last_positions_ = state.positions;
     last_velocities_ = state.velocities;
     // The impulse of the step is that of the stage with what the base brought along.
-    solver_.finish(system, h, {.reach = 1.0, .rate = 1.0 / solver_.stage().length, .past = 0.0}, state, statistics);
+    solver_.finish(system, h, {.reach = 1.0, .time = solver_.stage().length, .past = 0.0}, state, statistics);
   }
 
   void invalidate() override { last_step_ = 0.0; }

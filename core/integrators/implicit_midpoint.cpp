@@ -15,7 +15,7 @@ class ImplicitMidpoint final : public Integrator {
     solver_.stage().start(system, state, 0.5 * h, 0.5 * h);
     solver_.solve(system, statistics);
     statistics.dissipated += h * solver_.calc_dissipated_power();
-    solver_.finish(system, h, {.reach = 2.0, .rate = 4.0 / h, .past = 1.0}, state, statistics);
+    solver_.finish(system, h, {.reach = 2.0, .time = 0.25 * h, .past = 1.0}, state, statistics);
   }
 
  private:

@@ -1,9 +1,9 @@
 // Compiled once for every instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/integrators/particle_kernels.cpp"
-#include "hwy/foreach_target.h"  // before highway.h
+#include <hwy/foreach_target.h>  // before highway.h
 // clang-format off
-#include "hwy/highway.h"
+#include <hwy/highway.h>
 // clang-format on
 #include "core/integrators/particle_kernels.h"
 #include "core/state/state.h"
@@ -108,7 +108,7 @@ struct Follow {
   HWY_INLINE void run(D d, std::int64_t i, Books<D>& books) const {
     const auto u = hn::LoadU(d, a.u + i), v0 = hn::LoadU(d, a.v0 + i);
     const auto x1 = hn::Add(hn::LoadU(d, a.base + i), hn::Mul(hn::Set(d, a.reach), u));
-    const auto moved = hn::Sub(hn::Mul(hn::Set(d, a.rate), u), hn::Mul(hn::Set(d, a.past), v0));
+    const auto moved = hn::Sub(hn::Div(u, hn::Set(d, a.time)), hn::Mul(hn::Set(d, a.past), v0));
     const auto held = hn::Eq(hn::LoadU(d, a.free + i), hn::Zero(d));
     const auto v1 = hn::IfThenElse(held, v0, moved);
     const auto impulse = hn::Mul(hn::LoadU(d, a.masses + i), hn::Sub(v1, v0));

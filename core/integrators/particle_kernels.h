@@ -30,7 +30,7 @@ struct DriftArrays {
 };
 double run_drift(const DriftArrays& arrays, std::int64_t first, std::int64_t end);
 
-// x1 = base + reach u; v1 = rate u - past v0 where free, v0 elsewhere; work (v1 - v0) . m (v0 + v1) / 2.
+// x1 = base + reach u; v1 = u / time - past v0 where free, v0 elsewhere; work (v1 - v0) . m (v0 + v1) / 2.
 struct FollowArrays {
   const double* masses;  // m, kg
   const double* free;    // 1, or 0 where held
@@ -39,7 +39,7 @@ struct FollowArrays {
   const double* v0;      // m/s
   double* x1;            // may be base
   double* v1;            // may be v0
-  double reach, rate, past;
+  double reach, time, past;
 };
 double run_follow(const FollowArrays& arrays, std::int64_t first, std::int64_t end);
 

@@ -75,7 +75,7 @@ void ParticlePasses::follow(const System& system, double h, const DisplacementRu
   statistics.force_work += h * calc_handle_power(system, F, state.velocities);
   const FollowArrays arrays{
       system.masses().data(), system.free().data(),    base.data(), u.data(),  state.velocities.data(),
-      state.positions.data(), state.velocities.data(), rule.reach,  rule.rate, rule.past};
+      state.positions.data(), state.velocities.data(), rule.reach,  rule.time, rule.past};
   statistics.force_work += sum_blocks(run_follow, arrays, u.size(), partial_);
   move_handles(system, state.time + h, h, F, state.positions, state.velocities, statistics);
 }

@@ -17,10 +17,10 @@ struct KickAndDrift {
 };
 
 // What an implicit scheme makes of the displacement u that it found: positions base + reach u, velocities
-// rate u - past v0.
+// u / time - past v0. Divided: a product with the rounded inverse would be off to the same side at every step.
 struct DisplacementRule {
   double reach = 1.0;
-  double rate = 0.0;  // 1/s
+  double time = 1.0;  // s
   double past = 0.0;
 };
 

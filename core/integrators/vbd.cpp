@@ -213,7 +213,7 @@ class Vbd final : public Integrator {
     statistics.residual = terms > 0.0 ? gradient_.norm() / terms : 0.0;
     statistics.converged = statistics.converged && statistics.residual <= settings_.newton_tolerance;
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
-    passes_.follow(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
+    passes_.follow(system, h, {.reach = 1.0, .time = h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
                    statistics);
   }
 

@@ -66,7 +66,7 @@ class Xpbd final : public Integrator {
     statistics.iterations += settings_.iterations;
     measure_residual(system, h, state, statistics);
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
-    passes_.follow(system, h, {.reach = 1.0, .rate = 1.0 / h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
+    passes_.follow(system, h, {.reach = 1.0, .time = h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
                    statistics);
   }
 

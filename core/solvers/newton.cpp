@@ -61,7 +61,7 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
     // Newton's steps shorten the gradient a lot until rounding is all that is left of it.
     const double noise = problem.calc_noise();
     idle = norm <= noise && norm > 0.5 * last ? idle + 1 : 0;
-    result.converged = norm <= settings_.newton_tolerance * terms + 1e-3 * noise || idle == problem.patience();
+    result.converged = norm <= settings_.newton_tolerance * terms + 1e-5 * noise || idle == problem.patience();
     last = norm;
     if (result.converged) return result;
     if (result.iterations >= settings_.newton_iterations) {

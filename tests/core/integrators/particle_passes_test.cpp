@@ -64,10 +64,10 @@ TEST_F(ParticlePass, GivesTheSameBitsInPlace) {
 TEST_F(ParticlePass, FollowsADisplacementAndBooksTheChangeOfKineticEnergy) {
   State end = start_;
   const VecX u = 1e-3 * F_.cwiseProduct(system_.free());
-  const DisplacementRule rule{.reach = 2.0, .rate = 400.0, .past = 1.0};
+  const DisplacementRule rule{.reach = 2.0, .time = 1.0 / 400.0, .past = 1.0};
   passes_.follow(system_, 0.01, rule, start_.positions, u, F_, end, statistics_);
   EXPECT_EQ(end.positions, VecX(start_.positions + 2.0 * u));
-  EXPECT_EQ(end.velocities, VecX(400.0 * u - start_.velocities));
+  EXPECT_EQ(end.velocities, VecX(u / (1.0 / 400.0) - start_.velocities));
   const double change = system_.calc_kinetic(end.velocities) - system_.calc_kinetic(start_.velocities);
   EXPECT_NEAR(statistics_.force_work, change, 1e-12 * system_.calc_kinetic(end.velocities));
 }
