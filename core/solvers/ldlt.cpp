@@ -5,9 +5,20 @@
 
 namespace flexcast {
 
+namespace {
+
+// Tells what the analysis of the pattern found.
+class Ldlt : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> {
+ public:
+  // Entries of every column of L below the diagonal.
+  const Eigen::VectorXi& column_counts() const { return m_nonZerosPerCol; }
+};
+
+}  // namespace
+
 struct LdltSolver::Factor {
   Eigen::SparseMatrix<double> lower;  // column major: column j holds rows i >= j
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt;
+  Ldlt ldlt;
 
   // A is symmetric, so block row i of its upper triangle, transposed, is block column i of the lower one.
   void make_pattern(const BlockMatrix& A) {
@@ -69,10 +80,9 @@ void LdltSolver::make_factor(const BlockMatrix& A) {
 double LdltSolver::predict_time(const BlockMatrix& A) {
   constexpr double per_product = 1.2e-9, per_entry = 8e-9;  // s
   make_factor(A);
-  const auto& L = factor_->ldlt.matrixL().nestedExpression();
   double products = 0.0, entries = 0.0;
-  for (Eigen::Index j = 0; j < L.cols(); ++j) {
-    const auto count = static_cast<double>(L.outerIndexPtr()[j + 1] - L.outerIndexPtr()[j]);
+  for (const int entries_of_column : factor_->ldlt.column_counts()) {
+    const auto count = static_cast<double>(entries_of_column);
     products += 0.5 * count * count;
     entries += count;
   }

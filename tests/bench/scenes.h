@@ -12,7 +12,7 @@ namespace flexcast::bench {
 // 1 x 0.125 x 0.125 m, poisson 0.4, 1000 kg/m^3, held at x = 0, under gravity.
 struct Beam {
   int n = 6;  // size: 3, 6, 13, 28
-  std::string law = "neo_hookean";
+  std::string law = "corotational";
   std::string element = "tet4";
   double young = 1e6;  // Pa
 };
