@@ -34,13 +34,17 @@ class ChosenSolver final : public LinearSolver {
   }
 
  private:
+  // Finding the order of elimination takes longer than some steps. A changed parameter makes a new solver for the same
+  // pattern: that it is not worth it is remembered.
   void choose(const BlockMatrix& A) {
-    if (may_be_direct_ && A.rows() <= most_direct) {
+    thread_local std::uint64_t last_not_direct = 0;
+    if (may_be_direct_ && A.rows() <= most_direct && A.pattern_id() != last_not_direct) {
       auto direct = std::make_unique<LdltSolver>();
       if (direct->predict_time(A) <= predict_pcg_time(A)) {
         solver_ = std::move(direct);
         return;
       }
+      last_not_direct = A.pattern_id();
     }
     std::unique_ptr<Preconditioner> preconditioner;
     if (A.rows() >= least_multigrid && rest_positions_.size() == 3 * A.rows()) {
