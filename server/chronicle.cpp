@@ -61,6 +61,12 @@ void Chronicle::note_state(const Moment& moment, std::string text) {
   notices_.emplace_back(make_event(moment, EventKind::state, std::move(text)));
 }
 
+void Chronicle::note_choice(const Moment& moment, std::string text, std::vector<ParameterAssignment> values) {
+  Event event = make_event(moment, EventKind::choice, std::move(text));
+  event.values = std::move(values);
+  notices_.emplace_back(std::move(event));
+}
+
 void Chronicle::note_warning(const Moment& moment, std::string text) {
   notices_.emplace_back(make_event(moment, EventKind::warning, std::move(text)));
 }

@@ -28,6 +28,8 @@ class Chronicle {
   void note_command(const Moment& moment, const Command& command, std::string text,
                     std::vector<ParameterAssignment> values = {});
   void note_state(const Moment& moment, std::string text);
+  // What a contract chose, in force from the moment on.
+  void note_choice(const Moment& moment, std::string text, std::vector<ParameterAssignment> values);
   void note_warning(const Moment& moment, std::string text);
   void note_parameters(ParametersChanged parameters) { notices_.emplace_back(std::move(parameters)); }
 

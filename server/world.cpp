@@ -28,12 +28,16 @@ double World::next_time() const {
 void World::take_step() {
   FLEXCAST_CHECK(running());
   if (arrived()) return;  // nothing left to do: settle() ends it
-  if (!scene_->simulation->step()) return fail();
+  const Moment start = moment();
+  stepped_ = scene_->simulation->step();
+  if (!stepped_) return fail();
+  note_choice(start);
   if (simulation().state().step % std::max(1, simulation().settings().stream.every) == 0) make_frame_due();
 }
 
 void World::settle(double wall_seconds) {
   wall_seconds_ = wall_seconds;
+  if (std::exchange(stepped_, false)) follow_budget();
   if (!running() || !arrived()) return;
   if (at_end()) {
     end_step_.reset();
@@ -44,6 +48,30 @@ void World::settle(double wall_seconds) {
   if (!goal_) return;
   const Goal goal = *std::exchange(goal_, std::nullopt);
   answer(goal.command, Outcome::applied);
+}
+
+// What the next steps are taken with, by the time that the last ones took.
+void World::follow_budget() {
+  const bool kept = budget_.warning().empty();
+  scene_->simulation->choose(budget_.follow(simulation(), wall_seconds_));
+  note_choice(moment());
+  if (kept != budget_.warning().empty()) note_new_warnings();
+}
+
+// A contract's choice that differs from its last one, in force from the given moment on.
+void World::note_choice(const Moment& from) {
+  const TimeChoice choice = simulation().choice();
+  if (!simulation().has_contract() || choice == noted_choice_) return;
+  noted_choice_ = choice;
+  const bool by_time = simulation().settings().time.budget > 0.0;
+  std::string text = std::string(by_time ? "time.budget" : "time.tolerance") + " chose " +
+                     std::to_string(choice.substeps) + (choice.substeps == 1 ? " substep" : " substeps");
+  std::vector<ParameterAssignment> values = {{"time.substeps", std::int64_t{choice.substeps}}};
+  if (choice.iterations > 0) {
+    text += " of " + std::to_string(choice.iterations) + (choice.iterations == 1 ? " iteration" : " iterations");
+    values.push_back({"solver.iterations", std::int64_t{choice.iterations}});
+  }
+  chronicle_.note_choice(from, std::move(text), std::move(values));
 }
 
 void World::fail() {
@@ -62,6 +90,7 @@ void World::begin_run() {
   chronicle_.begin_run(
       {run_ids_.next(), topology_revision_, simulation().settings().time.step, simulation().settings().stream, scene_});
   next_frame_ = 0;
+  noted_choice_ = {.substeps = 0, .iterations = 0};
   wall_seconds_ = 0.0;
   end_step_ = find_end_step();
   format_ = make_stream_format(simulation().settings().stream);
@@ -127,6 +156,8 @@ void World::follow_parameters() {
     due_frame_->format = format_;
     due_frame_->parameter_revision = parameters_.revision();
   }
+  budget_.begin();
+  note_choice(moment());
   note_new_warnings();
   chronicle_.note_parameters(
       {run_id(), simulation().state().step, parameters_.revision(), parameters_.descriptors(), parameters_.values()});
@@ -134,6 +165,7 @@ void World::follow_parameters() {
 
 void World::note_new_warnings() {
   auto warnings = simulation().calc_warnings();
+  if (!budget_.warning().empty()) warnings.push_back(budget_.warning());
   for (const auto& warning : warnings) {
     if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
       chronicle_.note_warning(moment(), warning);
@@ -159,7 +191,7 @@ Moment World::moment() const {
 }
 
 MeasuredReport World::calc_measured_report() const {
-  return {simulation().calc_report(), wall_seconds_, simulation().settings().time.substeps};
+  return {simulation().calc_report(), wall_seconds_};
 }
 
 WorldStatus World::calc_status() const {

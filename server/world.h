@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "core/sim/budget_control.h"
 #include "server/checkpoint_folder.h"
 #include "server/chronicle.h"
 #include "server/convert/command_types.h"
@@ -99,6 +100,8 @@ class World {
   void interrupt_goal(const std::string& reason);
   void change_state(WorldState state, const std::string& text);
   void fail();
+  void follow_budget();
+  void note_choice(const Moment& from);
   void follow_parameters();
   void note_new_warnings();
   std::optional<std::int64_t> find_end_step() const;
@@ -118,6 +121,9 @@ class World {
   CheckpointFolder checkpoints_;
   ParameterTable parameters_;
   Chronicle chronicle_;
+  BudgetControl budget_;
+  TimeChoice noted_choice_ = {.substeps = 0, .iterations = 0};  // the last one of this run in the chronicle
+  bool stepped_ = false;                                        // a step was taken and is not settled
   WorldState state_ = WorldState::paused;
   StreamFormat format_;
   std::vector<std::string> warnings_;

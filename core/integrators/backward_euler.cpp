@@ -18,6 +18,8 @@ class BackwardEuler final : public Integrator {
     solver_.finish(system, h, {.reach = 1.0, .time = h, .past = 0.0}, state, statistics);
   }
 
+  void limit_iterations(int most) override { solver_.limit_iterations(most); }
+
  private:
   ImplicitSolver solver_;
 };
@@ -32,6 +34,7 @@ const IntegratorRow backward_euler_row{
     [](double, double) { return std::numeric_limits<double>::infinity(); },
     [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
       return std::make_unique<BackwardEuler>(system, settings);
-    }};
+    },
+    {0.5, 0.5}};
 
 }  // namespace flexcast

@@ -42,6 +42,8 @@ class Bdf2 final : public Integrator {
     last_velocities_ = history.segment(1 + n, n);
   }
 
+  void limit_iterations(int most) override { solver_.limit_iterations(most); }
+
  private:
   double calc_friction_power(const System& system, const State& state) {
     double power = 0.0;
@@ -86,6 +88,7 @@ const IntegratorRow bdf2_row{"bdf2",
                              [](double, double) { return std::numeric_limits<double>::infinity(); },
                              [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
                                return std::make_unique<Bdf2>(system, settings);
-                             }};
+                             },
+                             {1.0 / 3.0, 1.0 / 3.0}};
 
 }  // namespace flexcast

@@ -40,6 +40,7 @@ const IntegratorRow forward_euler_row{"forward_euler",
                                       calc_stable_step,
                                       [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
                                         return std::make_unique<ForwardEuler>();
-                                      }};
+                                      },
+                                      {-0.5, -0.5}};
 
 }  // namespace flexcast

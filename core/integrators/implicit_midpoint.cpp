@@ -18,6 +18,8 @@ class ImplicitMidpoint final : public Integrator {
     solver_.finish(system, h, {.reach = 2.0, .time = 0.25 * h, .past = 1.0}, state, statistics);
   }
 
+  void limit_iterations(int most) override { solver_.limit_iterations(most); }
+
  private:
   ImplicitSolver solver_;
 };
@@ -32,6 +34,7 @@ const IntegratorRow implicit_midpoint_row{
     [](double, double) { return std::numeric_limits<double>::infinity(); },
     [](const System& system, const SolverSettings& settings) -> std::unique_ptr<Integrator> {
       return std::make_unique<ImplicitMidpoint>(system, settings);
-    }};
+    },
+    {1.0 / 12.0, 1.0 / 12.0}};
 
 }  // namespace flexcast

@@ -78,6 +78,7 @@ class ImplicitSolver {
   ImplicitSolver(const System& system, const SolverSettings& settings)
       : newton_(settings, system.rest_positions()), hessian_(system.make_matrix()) {}
 
+  void limit_iterations(int most) { newton_.limit_iterations(most); }
   // To be set before solve().
   ImplicitStage& stage() { return stage_; }
   // Finds the displacement from the stage's base.

@@ -25,12 +25,22 @@ class Integrator {
     to.velocities = from.velocities;
     step(system, h, to, statistics);
   }
+  // Sweeps or Newton iterations a step at most, below those of the settings; 0: those.
+  virtual void limit_iterations(int /*most*/) {}
   // The state or the system changed between two steps: what was kept from the last step is void.
   virtual void invalidate() {}
   // What a scheme of several steps knows of the past, for a scheme of the same name to go on from: a step and, of its
   // start, positions and velocities. Empty: nothing.
   virtual VecX history() const { return {}; }
   virtual void set_history(const VecX& /*history*/) {}
+};
+
+// What a step of h seconds does wrong, to leading order and for smooth motion: positions are off by
+// position h^(p+1) d^p v / dt^p, velocities by velocity h^(p+1) d^(p+1) v / dt^(p+1), p the order. Both zero: not
+// known.
+struct LeadingError {
+  double position = 0.0, velocity = 0.0;
+  bool is_known() const { return position != 0.0; }
 };
 
 struct IntegratorRow {
@@ -42,6 +52,7 @@ struct IntegratorRow {
   // infinite.
   double (*calc_stable_step)(double omega, double damping_rate);
   std::unique_ptr<Integrator> (*make)(const System& system, const SolverSettings& settings);
+  LeadingError leading_error = {};
 };
 
 std::span<const IntegratorRow> integrators();

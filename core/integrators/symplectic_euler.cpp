@@ -38,6 +38,7 @@ const IntegratorRow symplectic_euler_row{"symplectic_euler",
                                          calc_stable_step,
                                          [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
                                            return std::make_unique<SymplecticEuler>();
-                                         }};
+                                         },
+                                         {0.5, -0.5}};
 
 }  // namespace flexcast

@@ -63,8 +63,12 @@ class Vbd final : public Integrator {
       copy_to_fours(velocity_, fours_.v);
       copy_to_fours(stage_.base, fours_.base);
     }
-    for (int i = 0; i < settings_.iterations; ++i) sweep(system);
+    for (int i = 0; i < sweeps_; ++i) sweep(system);
     finish(system, state, statistics);
+  }
+
+  void limit_iterations(int most) override {
+    sweeps_ = most > 0 ? std::min(most, settings_.iterations) : settings_.iterations;
   }
 
  private:
@@ -209,7 +213,7 @@ class Vbd final : public Integrator {
   void finish(const System& system, State& state, StepStatistics& statistics) {
     const double h = stage_.length;
     const double terms = potential_.calc_gradient(u_, gradient_);
-    statistics.iterations += settings_.iterations;
+    statistics.iterations += sweeps_;
     statistics.residual = terms > 0.0 ? gradient_.norm() / terms : 0.0;
     statistics.converged = statistics.converged && statistics.residual <= settings_.newton_tolerance;
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
@@ -218,6 +222,7 @@ class Vbd final : public Integrator {
   }
 
   SolverSettings settings_;
+  int sweeps_ = settings_.iterations;
   VisitOrder order_;
   std::vector<OwnedRuns> owned_;
   std::vector<Term> terms_;

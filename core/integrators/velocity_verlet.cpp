@@ -80,6 +80,7 @@ const IntegratorRow velocity_verlet_row{"velocity_verlet",
                                         calc_stable_step,
                                         [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
                                           return std::make_unique<VelocityVerlet>();
-                                        }};
+                                        },
+                                        {-1.0 / 6.0, 1.0 / 12.0}};
 
 }  // namespace flexcast

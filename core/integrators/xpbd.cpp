@@ -1,6 +1,7 @@
 #include "core/integrators/xpbd.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -18,8 +19,12 @@ class Xpbd final : public Integrator {
 
   void step(const System& system, double h, State& state, StepStatistics& statistics) override {
     predict(system, h, state);
-    for (int i = 0; i < settings_.iterations; ++i) sweep(system, h, state.positions);
+    for (int i = 0; i < sweeps_; ++i) sweep(system, h, state.positions);
     finish(system, h, state, statistics);
+  }
+
+  void limit_iterations(int most) override {
+    sweeps_ = most > 0 ? std::min(most, settings_.iterations) : settings_.iterations;
   }
 
  private:
@@ -63,7 +68,7 @@ class Xpbd final : public Integrator {
   }
 
   void finish(const System& system, double h, State& state, StepStatistics& statistics) {
-    statistics.iterations += settings_.iterations;
+    statistics.iterations += sweeps_;
     measure_residual(system, h, state, statistics);
     statistics.dissipated += h * potential_.calc_dissipated_power(u_);
     passes_.follow(system, h, {.reach = 1.0, .time = h, .past = 0.0}, stage_.base, u_, potential_.force(), state,
@@ -81,6 +86,7 @@ class Xpbd final : public Integrator {
   }
 
   SolverSettings settings_;
+  int sweeps_ = settings_.iterations;
   IncrementalPotential potential_;
   ImplicitStage stage_;
   ParticlePasses passes_;

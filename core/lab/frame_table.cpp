@@ -14,7 +14,9 @@ void add_vector(std::ostream& out, const Vec3& vector) {
 }  // namespace
 
 FrameTable::FrameTable(std::ostream& out, const Simulation& simulation) : out_(out) {
-  out_ << "step,time,kinetic,elastic,gravity,contact,work,dissipated,numerical,residual,iterations,inverted,min_j";
+  out_ << "step,time,kinetic,elastic,gravity,contact,work,dissipated,numerical,residual,iterations,inverted,min_j,"
+          "substeps,"
+          "error_estimate";
   for (const char* vector : {"momentum", "angular_momentum"})
     for (const char* axis : {"x", "y", "z"}) out_ << ',' << vector << '.' << axis;
   for (const Probe& probe : simulation.probes())
@@ -30,6 +32,8 @@ void FrameTable::add(const Simulation& simulation) {
     out_ << ',' << exact_text(number);
   out_ << ',' << report.statistics.iterations << ',' << report.inverted << ',';
   if (report.min_j) out_ << exact_text(*report.min_j);
+  out_ << ',' << report.statistics.substeps << ',';
+  if (report.error_estimate) out_ << exact_text(*report.error_estimate);
   add_vector(out_, report.momentum);
   add_vector(out_, report.angular_momentum);
   for (const Probe& probe : simulation.probes()) {

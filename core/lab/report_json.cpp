@@ -30,6 +30,7 @@ Json to_json(const StepReport& report) {
           {"converged", report.statistics.converged},
           {"numerical", report.numerical},
           {"error_estimate", to_json(report.error_estimate)},
+          {"substeps", report.statistics.substeps},
           {"stability_margin", to_json(report.stability_margin)},
           {"inverted", report.inverted},
           {"min_j", to_json(report.min_j)}};
@@ -82,6 +83,7 @@ nlohmann::ordered_json make_report_json(const Run& run) {
                {"integrator", simulation.settings().time.integrator},
                {"state", run.state},
                {"steps", run.steps},
+               {"substeps", run.substeps},
                {"time", simulation.state().time},
                {"wall_seconds", run.wall_seconds},
                {"report", to_json(simulation.calc_report())},

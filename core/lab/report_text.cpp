@@ -69,7 +69,12 @@ std::string make_report_text(const Run& run) {
   const StepReport report = simulation.calc_report();
   std::string text = format("%s: %s, %lld steps of %.6g s with %s", run.scene.name.c_str(), run.state.c_str(),
                             static_cast<long long>(run.steps), time.step, time.integrator.c_str());
-  if (time.substeps > 1) text += format(", %d substeps each", time.substeps);
+  if (simulation.has_contract() && run.steps > 0) {
+    text += format(", %.4g substeps each on average, %d at last",
+                   static_cast<double>(run.substeps) / static_cast<double>(run.steps), report.statistics.substeps);
+  } else if (time.substeps > 1) {
+    text += format(", %d substeps each", time.substeps);
+  }
   text += "\n";
   text += line("time", speed_text(run, report.time));
   for (const BodyReport& body : simulation.calc_body_reports())
@@ -78,6 +83,7 @@ std::string make_report_text(const Run& run) {
   text += line("momentum",
                vector_text(report.momentum) + " kg.m/s, angular " + vector_text(report.angular_momentum) + " kg.m^2/s");
   if (report.statistics.iterations > 0) text += line("solver", solver_text(report.statistics));
+  if (report.error_estimate) text += line("error", format("about %.4g m RMS in the last step", *report.error_estimate));
   if (report.stability_margin)
     text += line("stability", format("margin %.4g (stable step / step)", *report.stability_margin));
   for (const HandleReport& handle : simulation.calc_handle_reports())

@@ -12,6 +12,7 @@
 #include "core/lab/report_json.h"
 #include "core/lab/report_text.h"
 #include "core/lab/statics.h"
+#include "core/sim/budget_control.h"
 
 namespace flexcast {
 namespace {
@@ -43,17 +44,21 @@ bool is_stopped(const RunOptions& options) {
 // Steps to the end, a frame to the table at the start and every stream.every steps.
 void step_to_end(const RunOptions& options, std::int64_t count, Run& run, FrameTable* table, Progress& progress) {
   Simulation& simulation = *run.scene.simulation;
+  BudgetControl budget;
   if (table) table->add(simulation);
   run.state = "finished";
   while (run.steps < count && run.state == "finished") {
     const Clock::time_point start = Clock::now();
     const bool done = simulation.step();
-    run.wall_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    run.wall_seconds += seconds;
     if (!done) {
       run.state = "failed";
       break;
     }
     ++run.steps;
+    run.substeps += simulation.statistics().substeps;
+    simulation.choose(budget.follow(simulation, seconds));
     if (table && run.steps % simulation.settings().stream.every == 0) table->add(simulation);
     progress.show(run.steps, count, simulation.state().time, run.wall_seconds);
     if (is_stopped(options)) run.state = "stopped";
@@ -91,7 +96,7 @@ Result<void> write_positions(const std::filesystem::path& path, const VecX& posi
 Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
   auto loaded = load_scene(options.scene, options.overrides);
   if (!loaded) return loaded.error();
-  Run run{std::move(loaded).value(), "", 0, 0.0, 0.0, {}};
+  Run run{std::move(loaded).value(), "", 0, 0, 0.0, 0.0, {}};
   Simulation& simulation = *run.scene.simulation;
   run.static_tolerance = simulation.settings().solver.newton_tolerance;
   const auto count = calc_step_count(options, simulation.settings());

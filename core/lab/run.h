@@ -32,6 +32,7 @@ struct Run {
   Scene scene;
   std::string state;  // finished | failed | stopped
   std::int64_t steps = 0;
+  std::int64_t substeps = 0;      // integrator steps of all of them
   double wall_seconds = 0.0;      // in Simulation::step
   double static_tolerance = 0.0;  // what an equilibrium's residual must not pass
   std::vector<std::string> warnings;

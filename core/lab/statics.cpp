@@ -28,6 +28,8 @@ bool solve_static(Simulation& simulation, const StaticOptions& options) {
   const int increments = count_increments(simulation.model());
   std::vector<ParameterAssignment> values = {{"time.integrator", std::string("quasi_static")},
                                              {"time.substeps", std::int64_t{1}},
+                                             {"time.tolerance", 0.0},
+                                             {"time.budget", 0.0},
                                              {"time.step", 1.0 / increments},
                                              {"solver.newton_tolerance", std::min(wanted, aimed_tolerance)},
                                              {"solver.newton_iterations", iterations_per_step}};

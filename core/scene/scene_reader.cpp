@@ -19,6 +19,12 @@ TimeSettings read_time(const TableReader& reader) {
   time.step = read_parameter(reader, scene, "step", time.step);
   time.integrator = read_parameter(reader, scene, "integrator", time.integrator);
   time.substeps = read_parameter(reader, scene, "substeps", time.substeps);
+  time.tolerance = read_parameter(reader, scene, "tolerance", time.tolerance);
+  time.budget = read_parameter(reader, scene, "budget", time.budget);
+  time.error_estimate = read_parameter(reader, scene, "error_estimate", time.error_estimate);
+  if (time.tolerance > 0.0 && time.budget > 0.0)
+    reader.refuse_value("budget",
+                        "excludes time.tolerance = " + number_text(time.tolerance) + "; one of them must be 0");
   time.duration = reader.number("duration", {ranges::positive, "s"});
   constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
   if (time.duration && *time.duration / time.step > most_steps)
@@ -126,7 +132,8 @@ SceneDescription read_scene(const toml::table& document) {
   description.description = top.text("description").value_or("");
   description.gravity = read_parameter(top, scene, "gravity", description.gravity);
   if (const auto time = top.table("time"))
-    description.settings.time = read_time({*time, {"step", "integrator", "substeps", "duration"}});
+    description.settings.time =
+        read_time({*time, {"step", "integrator", "substeps", "tolerance", "budget", "error_estimate", "duration"}});
   if (const auto solver = top.table("solver"))
     description.settings.solver =
         read_solver({*solver, {"linear", "linear_tolerance", "newton_iterations", "newton_tolerance", "iterations"}});

@@ -172,6 +172,7 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
     writer.add(grab.target);
     writer.add(grab.stiffness);
   }
+  writer.add(checkpoint.contract);
   writer.add(static_cast<std::uint64_t>(checkpoint.values.size()));
   for (const ParameterAssignment& assignment : checkpoint.values) {
     writer.add(std::string_view(assignment.name));
@@ -210,6 +211,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes) {
     const Vec3 target = reader.vec3();
     checkpoint.grabs.push_back({particle, target, reader.number<double>()});
   }
+  checkpoint.contract = reader.vector();
   const std::size_t values = reader.count(sizeof(std::uint64_t) + 1);
   for (std::size_t i = 0; i < values; ++i) {
     std::string name = reader.text();

@@ -18,7 +18,7 @@
 
 namespace flexcast {
 
-inline constexpr std::uint32_t checkpoint_version = 1;
+inline constexpr std::uint32_t checkpoint_version = 2;
 
 struct Checkpoint {
   std::uint64_t fingerprint = 0;  // of the scene it belongs to
@@ -28,6 +28,7 @@ struct Checkpoint {
   VecX history;                // of the integrator
   EnergyBooks books;
   std::vector<Grab> grabs;
+  VecX contract;                            // what a contract has chosen and knows; empty without one
   std::vector<ParameterAssignment> values;  // every live parameter
 };
 

@@ -13,6 +13,8 @@ using Kind = ParameterKind;
 
 constexpr Range count{1.0, 1e6, false, false};
 constexpr Range tolerance{0.0, 1.0, true, true};
+constexpr Range time_tolerance{0.0, 1.0, false, true};
+constexpr Range time_budget{0.0, 1e3, false, false};
 
 template <class Row>
 std::vector<std::string> names_of(std::span<const Row> rows) {
@@ -140,6 +142,15 @@ void add_scene_rows(std::vector<ParameterRow>& rows) {
       settings_row("time.integrator", "", ranges::any, "scheme that takes the steps", time, &TimeSettings::integrator),
       names_of(integrators())));
   rows.push_back(settings_row("time.substeps", "", count, "integrator steps per step", time, &TimeSettings::substeps));
+  rows.push_back(settings_row("time.tolerance", "1/s", time_tolerance,
+                              "contract: position error made per second over the scene's size; 0: none", time,
+                              &TimeSettings::tolerance));
+  rows.push_back(settings_row("time.budget", "", time_budget, "contract: wall time per step over time.step; 0: none",
+                              time, &TimeSettings::budget));
+  rows.push_back(with_choices(settings_row("time.error_estimate", "", ranges::any,
+                                           "free: where a scheme gives it for nothing; doubling: by half steps", time,
+                                           &TimeSettings::error_estimate),
+                              {"free", "doubling"}));
   rows.push_back(with_choices(settings_row("solver.linear", "", ranges::any, "linear solver of implicit schemes",
                                            solver, &SolverSettings::linear),
                               {"auto", "pcg", "ldlt"}));

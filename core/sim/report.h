@@ -20,7 +20,7 @@ struct StepReport {
   Vec3 momentum = Vec3::Zero();          // kg.m/s
   Vec3 angular_momentum = Vec3::Zero();  // kg.m^2/s, about the world's origin
   StepStatistics statistics;
-  std::optional<double> error_estimate;    // absent: not computed
+  std::optional<double> error_estimate;    // m, RMS over the particles: what the step did wrong; absent: not known
   std::optional<double> stability_margin;  // stable step / step; absent for schemes without a limit
   std::int64_t inverted = 0;               // tetrahedra with J <= 0
   std::optional<double> min_j;             // smallest det F; absent without tetrahedra

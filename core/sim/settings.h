@@ -12,8 +12,12 @@ namespace flexcast {
 struct TimeSettings {
   double step = 1e-3;  // s, > 0
   std::string integrator = "symplectic_euler";
-  int substeps = 1;                // integrator steps per step
-  std::optional<double> duration;  // s; where a run without --until and --steps ends
+  int substeps = 1;  // integrator steps per step; without one of the contracts
+  // The contracts; 0: none, and never both. What they choose is in TimeChoice.
+  double tolerance = 0.0;               // RMS position error made per second of simulated time, over the scene's size
+  double budget = 0.0;                  // wall time per step over `step`
+  std::string error_estimate = "free";  // free | doubling: how the error of a step is estimated
+  std::optional<double> duration;       // s; where a run without --until and --steps ends
 };
 
 // The engine does not publish; it carries these for those who do.

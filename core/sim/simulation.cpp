@@ -41,6 +41,7 @@ Simulation::Simulation(Model model, Settings settings, State initial, std::vecto
   base_time_ = initial_.time;
   parameters_ = make_descriptors(*model_, settings_);
   refresh({});
+  restart_contract();
   book_start();
 }
 
@@ -60,8 +61,14 @@ void Simulation::follow_model() {
 // What follows from model and settings is made anew, so that a changed scene is a scene loaded that way.
 void Simulation::refresh(const VecX& history) {
   follow_model();
-  integrator_ = find_integrator(settings_.time.integrator)->make(*system_, settings_.solver);
+  integrator_ = make_integrator();
+  integrator_->limit_iterations(choice_.iterations);
   integrator_->set_history(history);
+  twin_integrator_.reset();
+}
+
+std::unique_ptr<Integrator> Simulation::make_integrator() const {
+  return find_integrator(settings_.time.integrator)->make(*system_, settings_.solver);
 }
 
 void Simulation::book_start() {
@@ -89,34 +96,6 @@ double Simulation::time_at(std::int64_t step) const {
   return base_time_ + static_cast<double>(step - base_step_) * settings_.time.step;
 }
 
-bool Simulation::step() {
-  if (failure_) return false;
-  statistics_ = {};
-  const double start = state_.time, h = settings_.time.step / settings_.time.substeps;
-  state_.positions.swap(before_.positions);
-  state_.velocities.swap(before_.velocities);
-  before_.time = start;
-  integrator_->step_from(*system_, h, before_, state_, statistics_);
-  for (int i = 1; i < settings_.time.substeps; ++i) {
-    state_.time = start + i * h;
-    integrator_->step(*system_, h, state_, statistics_);
-  }
-  state_.time = start;
-  // The books of a state that must not be published are no numbers.
-  const double moved = statistics_.force_work + statistics_.handle_work + statistics_.dissipated;
-  if (!std::isfinite(statistics_.residual + moved)) {
-    note_failure();
-    return false;
-  }
-  ++state_.step;
-  state_.time = time_at(state_.step);
-  books_.force_work += statistics_.force_work;
-  books_.handle_work += statistics_.handle_work;
-  books_.dissipated += statistics_.dissipated;
-  if (system_->has_handles()) jump();
-  return true;
-}
-
 // Handles without duration whose time has come.
 void Simulation::jump() {
   const bool any = std::any_of(model_->handles.begin(), model_->handles.end(), [this](const Handle& handle) {
@@ -130,31 +109,6 @@ void Simulation::jump() {
     integrator_->invalidate();
   }
   model_->jump_time = state_.time;
-}
-
-void Simulation::note_failure() {
-  failure_ = find_failure(*model_, before_, state_);
-  if (is_publishable(state_) && std::isfinite(statistics_.residual)) {
-    failure_->cause = "the energies of the step passed the range of double precision";
-  }
-  failure_->step = state_.step + 1;
-  const IntegratorRow& row = *find_integrator(settings_.time.integrator);
-  const double limit = calc_stable_step();
-  if (!row.implicit && settings_.time.step / settings_.time.substeps > limit) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the step is above the stable one: set time.step to at most %.3g s, or more "
-                  "time.substeps, or time.integrator to backward_euler",
-                  limit * settings_.time.substeps);
-    failure_->suggestion = text;
-  } else {
-    failure_->suggestion = "lower time.step or the stiffness, raise the damping, or reset";
-  }
-  state_.positions = before_.positions;
-  state_.velocities = before_.velocities;
-  statistics_ = {};
-  statistics_.converged = false;
-  integrator_->invalidate();
 }
 
 void Simulation::reset(bool keep_parameters) {
@@ -172,7 +126,9 @@ void Simulation::reset(bool keep_parameters) {
   state_ = initial_;
   base_step_ = initial_.step;
   base_time_ = initial_.time;
+  choice_ = {};
   refresh({});
+  restart_contract();
   book_start();
 }
 
@@ -219,6 +175,10 @@ std::vector<ParameterAssignment> Simulation::values_of(std::span<const Parameter
 // What ranges of single values cannot say of those just assigned.
 Result<void> Simulation::check_assigned(std::span<const ParameterAssignment> assignments) const {
   if (auto checked = check_model(*model_); !checked) return checked;
+  if (settings_.time.tolerance > 0.0 && settings_.time.budget > 0.0) {
+    return Error{"time.tolerance = " + to_text(settings_.time.tolerance) + " and time.budget = " +
+                 to_text(settings_.time.budget) + " exclude each other: set one of them to 0 with the other"};
+  }
   const auto refuse = [&](const char* what) {
     std::string text;
     for (const ParameterAssignment& assignment : assignments) {
@@ -258,6 +218,7 @@ Result<void> Simulation::set_parameters(std::span<const ParameterAssignment> ass
   }
   failure_.reset();
   refresh(settings_.time.integrator == old.integrator ? history : VecX());
+  follow_contract(old);
   ++parameter_revision_;
   return {};
 }
@@ -318,8 +279,8 @@ Result<void> Simulation::release(std::int64_t particle) {
 }
 
 Checkpoint Simulation::save() const {
-  Checkpoint checkpoint{fingerprint_,           state_, base_step_,    base_time_,
-                        integrator_->history(), books_, model_->grabs, {}};
+  Checkpoint checkpoint{fingerprint_, state_,        base_step_,      base_time_, integrator_->history(),
+                        books_,       model_->grabs, save_contract(), {}};
   for (const ParameterDescriptor& descriptor : parameters_) {
     if (descriptor.row->live) checkpoint.values.push_back({descriptor.name, parameter(descriptor)});
   }
@@ -366,6 +327,7 @@ Result<void> Simulation::restore(const Checkpoint& checkpoint) {
   model_->grabs = checkpoint.grabs;
   refresh(checkpoint.history);
   state_ = checkpoint.state;
+  if (!restore_contract(checkpoint.contract)) restart_contract();
   books_ = checkpoint.books;
   ++parameter_revision_;
   return {};

@@ -15,6 +15,9 @@
 #include "core/sim/parameters.h"
 #include "core/sim/report.h"
 #include "core/sim/settings.h"
+#include "core/sim/time_choice.h"
+#include "core/sim/tolerance_control.h"
+#include "core/sim/velocity_track.h"
 #include "core/state/state.h"
 
 namespace flexcast {
@@ -44,6 +47,13 @@ class Simulation {
   const std::vector<Probe>& probes() const { return probes_; }
   const std::optional<Failure>& failure() const { return failure_; }
   const StepStatistics& statistics() const { return statistics_; }  // of the last step
+
+  // How steps are taken: as the settings say, or as a contract chose for the last step (time.tolerance) or the next one
+  // (time.budget).
+  const TimeChoice& choice() const { return choice_; }
+  bool has_contract() const;
+  // What a budget chose from measured times (BudgetControl), for the steps to come. Ignored without that contract.
+  void choose(const TimeChoice& choice);
 
   // Energies, momenta and element health of the present state: a pass over everything, so only on demand.
   StepReport calc_report() const;
@@ -89,6 +99,20 @@ class Simulation {
   void follow_model();
   void refresh(const VecX& history);
   void jump();
+  bool has_tolerance() const;
+  bool take_substeps();
+  bool take_tolerated_step();
+  JudgedStep make_judged_step() const;
+  bool is_doubling() const;
+  void start_twin(int substep);
+  void compare_twin();
+  void restart_contract();
+  void follow_contract(const TimeSettings& old);
+  VecX save_contract() const;
+  bool restore_contract(const VecX& saved);
+  std::unique_ptr<Integrator> make_integrator() const;
+  std::optional<double> calc_error_estimate() const;
+  double find_stable_step(const VecX& positions) const;
   void note_failure();
   void book_start();
   double choose_grab_stiffness(std::int32_t particle) const;
@@ -107,6 +131,17 @@ class Simulation {
   std::vector<ParameterDescriptor> parameters_;
   std::uint64_t parameter_revision_ = 1;
   StepStatistics statistics_;
+  TimeChoice choice_;
+  ToleranceControl tolerance_;
+  VelocityTrack track_;
+  bool tracks_ = false;
+  // The error of an integrator step by half steps, and what takes these.
+  struct StepError {
+    double position = 0.0, velocity = 0.0;  // RMS over the particles, m and m/s
+  };
+  std::optional<StepError> measured_;
+  State twin_;
+  std::unique_ptr<Integrator> twin_integrator_;
   std::optional<Failure> failure_;
   // Time is base_time_ + (step - base_step_) * dt, so that no error adds up; a changed dt moves the base.
   std::int64_t base_step_ = 0;

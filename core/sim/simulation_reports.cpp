@@ -37,7 +37,8 @@ StepReport Simulation::calc_report() const {
   }
   report.statistics = statistics_;
   const double limit = calc_stable_step();
-  const double margin = limit * settings_.time.substeps / settings_.time.step;
+  report.error_estimate = calc_error_estimate();
+  const double margin = limit * choice_.substeps / settings_.time.step;
   if (std::isfinite(margin)) report.stability_margin = margin;
   for (const Body& body : model_->bodies) {
     const ElementHealth health = calc_element_health(*model_, body, state_.positions);
@@ -96,8 +97,17 @@ double Simulation::calc_stable_step() const {
   if (row.implicit) return std::numeric_limits<double>::infinity();
   const std::int64_t age = state_.step - stable_step_from_;
   if (stable_step_ && age >= 0 && age < stable_step_lasts) return *stable_step_;
+  stable_step_ = find_stable_step(state_.positions);
+  stable_step_from_ = state_.step;
+  return *stable_step_;
+}
+
+// The same at once, so that nobody's questions change what it says.
+double Simulation::find_stable_step(const VecX& positions) const {
+  const IntegratorRow& row = *find_integrator(settings_.time.integrator);
+  if (row.implicit) return std::numeric_limits<double>::infinity();
   double limit = std::numeric_limits<double>::infinity();
-  for (const ModeBound& bound : calc_largest_modes(*system_, *model_, state_.positions)) {
+  for (const ModeBound& bound : calc_largest_modes(*system_, *model_, positions)) {
     const double omega = std::sqrt(bound.omega_squared);
     if (omega == 0.0 && bound.damping_rate == 0.0) continue;
     constexpr double fastest = 1e150;  // 1/s: squares of more are no numbers
@@ -106,15 +116,26 @@ double Simulation::calc_stable_step() const {
     limit = std::min({limit, row.calc_stable_step(omega, bound.damping_rate),
                       row.calc_stable_step(omega, bound.least_damping_rate)});
   }
-  stable_step_ = limit;
-  stable_step_from_ = state_.step;
   return limit;
+}
+
+// Of the positions, m: what the substeps of the last step added to it.
+std::optional<double> Simulation::calc_error_estimate() const {
+  const double substeps = statistics_.substeps;
+  if (substeps == 0.0) return std::nullopt;
+  if (measured_) return measured_->position * substeps;
+  const IntegratorRow& row = *find_integrator(settings_.time.integrator);
+  const VelocityDerivatives derivatives = track_.calc_derivatives();
+  if (!row.leading_error.is_known() || derivatives.known <= row.order) return std::nullopt;
+  const double h = settings_.time.step / substeps;
+  return settings_.time.step * std::abs(row.leading_error.position) * std::pow(h, row.order) *
+         derivatives.rms[static_cast<std::size_t>(row.order)];
 }
 
 std::vector<std::string> Simulation::calc_warnings() const {
   std::vector<std::string> warnings;
   const double limit = calc_stable_step();
-  const double h = settings_.time.step / settings_.time.substeps;
+  const double h = settings_.time.step / choice_.substeps;
   if (h > limit) {
     char text[200];
     std::snprintf(text, sizeof text, "%s: the step of %.4g s is above the stable limit of about %.4g s (margin %.3g)",

@@ -64,13 +64,13 @@ NewtonResult NewtonSolver::minimize(MinimizationProblem& problem, BlockMatrix& h
     result.converged = norm <= settings_.newton_tolerance * terms + 1e-5 * noise || idle == problem.patience();
     last = norm;
     if (result.converged) return result;
-    if (result.iterations >= settings_.newton_iterations) {
-      result.converged = settings_.newton_iterations == 1 && linear_converged_ && std::isfinite(result.residual);
+    if (result.iterations >= most_iterations_) {
+      result.converged = most_iterations_ == 1 && linear_converged_ && std::isfinite(result.residual);
       return result;
     }
     if (!find_direction(problem, hessian, guess, u, result)) return result;
     ++result.iterations;
-    if (settings_.newton_iterations == 1) {
+    if (most_iterations_ == 1) {
       u += direction_;
       terms = problem.calc_gradient(u, gradient_);
     } else {

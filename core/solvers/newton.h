@@ -2,6 +2,8 @@
 // Source: J. Nocedal, S. J. Wright, Numerical Optimization, Springer 2006, chapters 3 and 6.
 #pragma once
 
+#include <algorithm>
+
 #include "core/solvers/linear_solver.h"
 
 namespace flexcast {
@@ -38,7 +40,9 @@ struct NewtonResult {
 class NewtonSolver {
  public:
   NewtonSolver(const SolverSettings& settings, const VecX& rest_positions)
-      : settings_(settings), linear_(make_linear_solver(settings, rest_positions)) {}
+      : settings_(settings),
+        most_iterations_(settings.newton_iterations),
+        linear_(make_linear_solver(settings, rest_positions)) {}
 
   // Improves u in place; `guess` is where the first iteration may expect its step to go. With newton_iterations = 1 it
   // takes the full Newton step, without a search: the linearly implicit schemes. `residual` then says how far from the
@@ -46,6 +50,10 @@ class NewtonSolver {
   // The problem's last calc_gradient was at the returned u, and gradient() is its result.
   NewtonResult minimize(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, VecX& u);
   const VecX& gradient() const { return gradient_; }
+  // At most so many iterations, and never more than the settings'; 0: as many as those.
+  void limit_iterations(int most) {
+    most_iterations_ = most > 0 ? std::min(most, settings_.newton_iterations) : settings_.newton_iterations;
+  }
 
  private:
   bool find_direction(MinimizationProblem& problem, BlockMatrix& hessian, const VecX& guess, const VecX& u,
@@ -54,6 +62,7 @@ class NewtonSolver {
   double search_line(MinimizationProblem& problem, VecX& u, double& terms);
 
   SolverSettings settings_;
+  int most_iterations_;
   std::unique_ptr<LinearSolver> linear_;
   VecX gradient_, trial_gradient_, right_, direction_, trial_;
   bool linear_converged_ = false;

@@ -4,6 +4,7 @@
 namespace flexcast {
 
 struct StepStatistics {
+  int substeps = 0;           // integrator steps it was taken with; 0: none was taken
   double residual = 0.0;      // of the last nonlinear solve: norm over the summed norms of its terms; 0: explicit
   int iterations = 0;         // nonlinear, summed over the substeps
   int linear_iterations = 0;  // summed

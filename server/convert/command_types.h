@@ -101,7 +101,6 @@ struct Command {
 struct MeasuredReport {
   StepReport report;
   double wall_seconds = 0.0;  // of the last step
-  int substeps = 1;
 };
 
 // `run_id`, `applied_step`, `time` and `state` describe one moment: the one at which the effect was complete. The

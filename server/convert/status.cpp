@@ -55,7 +55,7 @@ flexcast_StepReport to_wire(const MeasuredReport& measured) {
   message.inverted = static_cast<std::uint32_t>(report.inverted);
   message.min_j = finite_or_nan(report.min_j);
   message.wall_seconds = measured.wall_seconds;
-  message.substeps = static_cast<std::uint32_t>(measured.substeps);
+  message.substeps = static_cast<std::uint32_t>(report.statistics.substeps);
   return message;
 }
 

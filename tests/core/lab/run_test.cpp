@@ -54,12 +54,12 @@ TEST_F(LabRun, PrintsTheDocumentedObject) {
   const Json result = json();
   EXPECT_EQ(keys_of(result),
             (std::vector<std::string>{"bodies", "handles", "integrator", "probes", "report", "scene", "state",
-                                      "state_hash", "steps", "time", "wall_seconds", "warnings"}));
+                                      "state_hash", "steps", "substeps", "time", "wall_seconds", "warnings"}));
   EXPECT_EQ(
       keys_of(result["report"]),
       (std::vector<std::string>{"angular_momentum", "contact", "converged", "dissipated", "elastic", "error_estimate",
                                 "gravity", "inverted", "iterations", "kinetic", "linear_iterations", "min_j",
-                                "momentum", "numerical", "residual", "stability_margin", "work"}));
+                                "momentum", "numerical", "residual", "stability_margin", "substeps", "work"}));
   EXPECT_EQ(keys_of(result["probes"]["bob"]),
             (std::vector<std::string>{"body", "node", "position", "rest", "velocity"}));
   EXPECT_EQ(keys_of(result["bodies"]["pendulum"]),
