@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     bench->stop = &stop;
     return flexcast::bench_verb(*bench, std::cout, std::cerr);
   }
+  if (const auto* plot = std::get_if<flexcast::PlotOptions>(&command)) return flexcast::plot_verb(*plot, std::cerr);
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;
   options.progress = isatty(STDERR_FILENO) != 0;

@@ -63,6 +63,28 @@ void add_modes(CLI::App& app, ModesOptions& options) {
   modes->add_flag("--json", options.json, "Print JSON");
 }
 
+void add_plot(CLI::App& app, PlotOptions& options) {
+  CLI::App* plot = app.add_subcommand("plot", "Draw columns of CSV files as lines, into an SVG picture.");
+  plot->footer("Example:\n  flexcast-lab plot coarse.csv fine.csv -o tip.svg --y tip.z --title 'Tip of the beam'");
+  plot->add_option("files", options.files, "CSV files; the first row names the columns")->required()->type_name("FILE");
+  plot->add_option("-o,--output", options.picture, "The picture")->required()->type_name("FILE");
+  plot->add_option("--x", options.x, "Column along the x axis, default time")->type_name("COLUMN");
+  plot->add_option("--y", options.y, "Columns along the y axis, parted by commas")
+      ->required()
+      ->type_name("COLUMN,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  plot->add_option("--log", options.logarithmic, "Logarithmic axes: x, y or xy")
+      ->check(CLI::IsMember({"x", "y", "xy"}));
+  plot->add_option("--title", options.title, "Title of the picture")->type_name("TEXT");
+  plot->add_option("--labels", options.labels, "Labels, one a line or one a file; default: names of the files")
+      ->type_name("TEXT,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  plot->add_option("--difference", options.difference, "Draw the difference from this file, interpolated over x")
+      ->type_name("FILE");
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Run a scene and print the report of its last step and its probes.");
   run->footer(footer);
@@ -96,6 +118,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   add_run(app, run);
   add_modes(app, modes);
   add_bench(app, bench);
+  PlotOptions plot;
+  add_plot(app, plot);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -105,6 +129,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   }
   if (app.got_subcommand("modes")) return modes;
   if (app.got_subcommand("bench")) return bench;
+  if (app.got_subcommand("plot")) return plot;
   return run;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/lab/bench.h"
 #include "core/lab/modes.h"
+#include "core/lab/plot_verb.h"
 #include "core/lab/run.h"
 
 namespace flexcast {
@@ -18,7 +19,7 @@ struct CommandLineEnd {
 };
 
 // One alternative a verb.
-using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions>;
+using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 
