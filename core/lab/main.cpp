@@ -33,6 +33,11 @@ int main(int argc, char** argv) {
     return flexcast::bench_verb(*bench, std::cout, std::cerr);
   }
   if (const auto* plot = std::get_if<flexcast::PlotOptions>(&command)) return flexcast::plot_verb(*plot, std::cerr);
+  if (auto* limits = std::get_if<flexcast::LimitsOptions>(&command)) {
+    limits->stop = &stop;
+    limits->progress = isatty(STDERR_FILENO) != 0;
+    return flexcast::limits_verb(*limits, std::cout, std::cerr);
+  }
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;
   options.progress = isatty(STDERR_FILENO) != 0;

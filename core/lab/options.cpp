@@ -63,6 +63,35 @@ void add_modes(CLI::App& app, ModesOptions& options) {
   modes->add_flag("--json", options.json, "Print JSON");
 }
 
+void add_limits(CLI::App& app, LimitsOptions& options) {
+  CLI::App* limits = app.add_subcommand(
+      "limits", "Measure where each integrator blows up, next to what is predicted, over decades of what it hangs on.");
+  limits->footer("Example:\n  flexcast-lab limits server/scenes/cantilever.toml -o limits --vary stiffness,damping");
+  std::vector<std::string> schemes;
+  for (const IntegratorRow& row : integrators()) schemes.emplace_back(row.name);
+  limits->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  limits->add_option("-o,--output", options.folder, "Folder for limits.csv, limits.json and limits.svg")
+      ->required()
+      ->type_name("DIR");
+  limits->add_option("--integrators", options.integrators, "Default: all that know time")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(schemes));
+  limits->add_option("--vary", options.quantities, "Default: all of them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(variation_names()));
+  limits->add_option("--points", options.points, "Values of each quantity, default 7")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  limits->add_option("--budget", options.budget, "Begin no measurement after this time, default 60 s")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e9));
+  add_threads(*limits, options.threads);
+  add_overrides(*limits, options.overrides);
+  limits->add_flag("--json", options.json, "Print JSON");
+}
+
 void add_plot(CLI::App& app, PlotOptions& options) {
   CLI::App* plot = app.add_subcommand("plot", "Draw columns of CSV files as lines, into an SVG picture.");
   plot->footer("Example:\n  flexcast-lab plot coarse.csv fine.csv -o tip.svg --y tip.z --title 'Tip of the beam'");
@@ -120,6 +149,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   add_bench(app, bench);
   PlotOptions plot;
   add_plot(app, plot);
+  LimitsOptions limits;
+  add_limits(app, limits);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -130,6 +161,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   if (app.got_subcommand("modes")) return modes;
   if (app.got_subcommand("bench")) return bench;
   if (app.got_subcommand("plot")) return plot;
+  if (app.got_subcommand("limits")) return limits;
   return run;
 }
 

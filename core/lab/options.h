@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/lab/bench.h"
+#include "core/lab/limits.h"
 #include "core/lab/modes.h"
 #include "core/lab/plot_verb.h"
 #include "core/lab/run.h"
@@ -19,7 +20,7 @@ struct CommandLineEnd {
 };
 
 // One alternative a verb.
-using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions>;
+using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions, LimitsOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 
