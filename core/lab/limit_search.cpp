@@ -11,10 +11,10 @@ namespace flexcast {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double amplitude = 1e-9;    // of the shortest edge
-constexpr double resolution = 1.004;  // between a stable and an unstable step
-constexpr double most_above = 1e3;    // times the first step: further up there is no limit
-constexpr double least_gain = 1.02;   // over the second half, where growth is steady
+constexpr double amplitude = 1e-9;     // of the shortest edge
+constexpr double resolution = 1.0101;  // between a stable and an unstable step
+constexpr double most_above = 1e3;     // times the first step: further up there is no limit
+constexpr double least_gain = 1.02;    // over the second half, where growth is steady
 
 State make_rest(const Model& model) {
   return {model.rest_positions, VecX::Zero(model.rest_positions.size())};

@@ -47,7 +47,7 @@ class Perturbation {
 };
 
 struct Limit {
-  std::optional<double> measured;  // s, the longest step seen to be stable, to 0.5 %; nothing: no step was too long
+  std::optional<double> measured;  // s, the longest step seen to be stable, to 1 %; nothing: no step was too long
   // Growth shows soon above that step; else it is so slow that the true limit may lie well below.
   bool resolved = true;
   std::optional<double> predicted;  // s, what the engine advertises; nothing: no limit. 0, of both: no step is stable

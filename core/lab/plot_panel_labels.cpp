@@ -44,7 +44,7 @@ void PlotPanelDrawing::draw_labels(Svg& svg, const PlotArea& area, std::vector<S
     owners.push_back(i);
     ends.push_back(end);
   }
-  spread_labels(boxes, area.box.top - 0.5 * label_height, area.box.bottom + 0.5 * label_height);
+  spread_labels(boxes, area.box.top - 0.5 * label_height, area.box.bottom + 2.0);
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const PlotColor& color = plot_colors[static_cast<std::size_t>(colors_[owners[k]])];
     const double middle = boxes[k].top + 0.5 * label_height;

@@ -32,8 +32,8 @@ std::string fit_text(std::string_view text, double size, double width) {
   if (estimate_text_width(text, size) <= width) return std::string(text);
   const double room = width - 0.9 * size;
   std::size_t end = 0;
+  // Bytes after the first of a character have no width, so that this ends behind one.
   for (std::size_t i = 1; i <= text.size(); ++i) {
-    if (i < text.size() && !is_start(text[i])) continue;
     if (estimate_text_width(text.substr(0, i), size) > room) break;
     end = i;
   }

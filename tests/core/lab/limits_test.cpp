@@ -53,6 +53,29 @@ TEST(Limits, OfAnUndampedOscillatorAreThoseOfTheTextbook) {
   EXPECT_EQ(measure(make_oscillator(0.0), "forward_euler"), 0.0);
 }
 
+// Whatever is predicted: what the scheme itself does at a step below and above the limit.
+TEST(Limits, AreWhereAPerturbationBeginsToGrow) {
+  const Model undamped = load_quiet(make_oscillator(0.0)), damped = load_quiet(make_oscillator(2.0));
+  const auto grows = [](const Model& model, std::string_view name, double h) {
+    const IntegratorRow& scheme = *find_integrator(name);
+    return Perturbation(model).grows(scheme, h, choose_watch(scheme));
+  };
+  for (const auto& [name, limit] : {std::pair{"symplectic_euler", 2.0 / omega},
+                                    {"velocity_verlet", 2.0 / omega},
+                                    {"rk4", 2.0 * std::sqrt(2.0) / omega}}) {
+    EXPECT_FALSE(grows(undamped, name, 0.995 * limit)) << name;
+    EXPECT_TRUE(grows(undamped, name, 1.01 * limit)) << name;
+  }
+  EXPECT_FALSE(grows(damped, "forward_euler", 0.995 * 0.02));
+  EXPECT_TRUE(grows(damped, "forward_euler", 1.01 * 0.02));
+}
+
+TEST(Limits, OfImplicitSchemesAreNotFound) {
+  const Model model = load_quiet(make_oscillator(0.0));
+  EXPECT_LE(Perturbation(model).calc_gain(*find_integrator("backward_euler"), {}, 10.0, 20), 1.0 + 1e-9);
+  EXPECT_GT(Perturbation(model).calc_gain(*find_integrator("symplectic_euler"), {}, 10.0, 20), 1e6);
+}
+
 // k_d = 2 N.s: a damper of 4 N.s/m, so c = 20 / s.
 TEST(Limits, OfADampedOscillatorFollowTheDamping) {
   const double c = 20.0, omega_squared = 1000.0;

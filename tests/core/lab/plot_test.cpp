@@ -146,6 +146,12 @@ TEST(Plot, TheSamePlotGivesTheSameBytes) {
   EXPECT_EQ(make_svg(plot), make_svg(plot));
 }
 
+TEST(Plot, SaysWhatItShows) {
+  const std::string svg = make_svg(make_plot({}));
+  for (const char* text : {"Title", "what it is", "Panel", "h (s)", "error (m)"})
+    EXPECT_EQ(count(svg, ">" + std::string(text) + "</text>"), 1U) << text;
+}
+
 TEST(Plot, TextIsEscaped) {
   Plot plot = make_plot({make_series("a<b & \"c\"", {{1.0, 1.0}, {2.0, 2.0}})});
   plot.title = "x > y \x01 \xff é";
@@ -288,6 +294,8 @@ TEST(PlotAxis, GivenLimitsAreTheEnds) {
   EXPECT_DOUBLE_EQ(*scale.place(-2.0), 0.0);
   EXPECT_DOUBLE_EQ(*scale.place(6.0), 1.0);
   EXPECT_FALSE(scale.place(infinity));
+  axis.lo = 6.0;
+  EXPECT_DOUBLE_EQ(*AxisScale(axis, {0.0}).place(6.0), 0.0);
 }
 
 TEST(PlotLabels, StayWhereTheyAreWithoutNeed) {
@@ -319,12 +327,21 @@ TEST(PlotLabels, ANoteFindsAFreePlaceNearItsMark) {
 TEST(PlotPath, ManyPointsAreThinnedWithoutLosingPeaks) {
   PlotPiece piece;
   for (int i = 0; i < 100000; ++i) piece.push_back({0.001 * i, 10.0 * (i % 2)});
-  piece[5000].y = 99.0;
+  piece[5123].y = 99.0;
   const PlotPiece thin = thin_out(piece);
   EXPECT_LE(thin.size(), 1000U);
   EXPECT_EQ(thin.front().x, 0.0);
   EXPECT_EQ(thin.back().x, piece.back().x);
   EXPECT_EQ(std::count_if(thin.begin(), thin.end(), [](const SvgPoint& point) { return point.y == 99.0; }), 1);
+}
+
+TEST(Svg, NumbersAreShortAndWithinWhatRenderersBear) {
+  EXPECT_EQ(svg_number(1.0), "1");
+  EXPECT_EQ(svg_number(12.345), "12.35");
+  EXPECT_EQ(svg_number(-0.001), "0");
+  EXPECT_EQ(svg_number(100.0), "100");
+  EXPECT_EQ(svg_number(1e300), "1000000");
+  EXPECT_EQ(svg_number(-infinity), "-1000000");
 }
 
 TEST(PlotText, LongTextIsCutBetweenCharactersOrWrappedBetweenWords) {
