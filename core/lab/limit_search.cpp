@@ -55,8 +55,8 @@ Model make_quiet_model(const Model& model) {
 // Symplectic Euler and velocity Verlet without damping gain a factor of 1.3 a step at 1 % too much, with much of it
 // 1.02: 900 steps make 1e6 of the share, a thirtieth or so, that the fastest mode has of the start.
 GrowthWatch choose_watch(const IntegratorRow& scheme) {
-  if (scheme.name == "forward_euler") return {6000, 1e3, true};
-  return {1500, 1e6, false};
+  if (scheme.name == "forward_euler") return {6000, 1e3, true, {}};
+  return {1500, 1e6, false, {}};
 }
 
 Perturbation::Perturbation(const Model& model) : model_(model), system_(model), edge_(find_shortest_edge(model)) {
@@ -90,6 +90,7 @@ bool Perturbation::grows(const IntegratorRow& scheme, double h, const GrowthWatc
   for (int step = 1; step <= watch.steps; ++step) {
     integrator->step(system_, h, state, statistics);
     if (step % pause != 0) continue;
+    if (watch.gives_up && watch.gives_up()) return true;
     const double norm = calc_norm(state);
     // What has died away to rounding may do what it likes below a tenth of the start.
     if (!(norm <= std::max(watch.factor * least, 0.1 * first))) return true;
@@ -104,13 +105,14 @@ bool Perturbation::grows(const IntegratorRow& scheme, double h, const GrowthWatc
          std::is_sorted(largest.begin(), largest.end());
 }
 
-double Perturbation::calc_gain(const IntegratorRow& scheme, const SolverSettings& solver, double h, int steps) const {
+double Perturbation::calc_gain(const IntegratorRow& scheme, const SolverSettings& solver, double h,
+                               const GrowthWatch& watch) const {
   const auto integrator = scheme.make(system_, solver);
   State state = make_start(1e6 * amplitude);
   StepStatistics statistics;
   const double first = calc_norm(state);
   double largest = first;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < watch.steps && !(watch.gives_up && watch.gives_up()); ++step) {
     integrator->step(system_, h, state, statistics);
     state.time += h;
     const double norm = calc_norm(state);
@@ -126,11 +128,12 @@ double calc_predicted_step(const Model& model, std::string_view integrator) {
   return Simulation(model, settings, make_rest(model), {}).calc_stable_step();
 }
 
-Limit find_limit(const Model& model, const IntegratorRow& scheme) {
+Limit find_limit(const Model& model, const IntegratorRow& scheme, const std::function<bool()>& gives_up) {
   const double predicted = calc_predicted_step(model, scheme.name);
   Limit limit;
   if (std::isfinite(predicted)) limit.predicted = predicted;
-  const GrowthWatch watch = choose_watch(scheme);
+  GrowthWatch watch = choose_watch(scheme);
+  watch.gives_up = gives_up;
   const Perturbation perturbation(model);
   // Where no step is said to be stable, one far below what another scheme bears is looked at.
   const double start =
@@ -158,7 +161,8 @@ Limit find_limit(const Model& model, const IntegratorRow& scheme) {
   limit.measured = stable;
   // A limit that hangs on how long one waits is none.
   constexpr double above = 1.02;
-  limit.resolved = perturbation.grows(scheme, above * stable, {watch.steps / 2, watch.factor, watch.steadily});
+  watch.steps /= 2;
+  limit.resolved = perturbation.grows(scheme, above * stable, watch);
   return limit;
 }
 

@@ -2,7 +2,7 @@
 // itself, not computed from modes.
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <optional>
 
 #include "core/integrators/integrator.h"
@@ -21,6 +21,8 @@ struct GrowthWatch {
   int steps = 0;
   double factor = 0.0;    // of the energy norm over its least value: instability. Rounding stays far below it.
   bool steadily = false;  // growth over all eighths of the second half is instability too
+  // Asked now and then: whether there is no time any more. What is measured then says nothing.
+  std::function<bool()> gives_up = {};
 };
 GrowthWatch choose_watch(const IntegratorRow& scheme);
 
@@ -32,9 +34,9 @@ class Perturbation {
 
   // Whether it grows under the scheme at this step.
   bool grows(const IntegratorRow& scheme, double h, const GrowthWatch& watch) const;
-  // Largest energy norm over the first one, in as many steps, of a perturbation a million times as large; infinite when
-  // it becomes no number.
-  double calc_gain(const IntegratorRow& scheme, const SolverSettings& solver, double h, int steps) const;
+  // Largest energy norm over the first one, in the steps of the watch, of a perturbation a million times as large;
+  // infinite when it becomes no number.
+  double calc_gain(const IntegratorRow& scheme, const SolverSettings& solver, double h, const GrowthWatch& watch) const;
 
  private:
   State make_start(double scale) const;
@@ -54,7 +56,7 @@ struct Limit {
 };
 
 // For an explicit scheme and a quiet model.
-Limit find_limit(const Model& model, const IntegratorRow& scheme);
+Limit find_limit(const Model& model, const IntegratorRow& scheme, const std::function<bool()>& gives_up = {});
 
 // Simulation::calc_stable_step of the quiet model at rest.
 double calc_predicted_step(const Model& model, std::string_view integrator);

@@ -29,7 +29,7 @@ class Budget {
 
   // Whether the next measurement may begin, given the part of the budget that may be used by then.
   bool begin(double share, const std::string& what) {
-    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double spent = calc_spent();
     if (is_stopped() || spent > share * options_.budget) return false;
     if (options_.progress && done_ > 0) {
       const double rest = spent * static_cast<double>(count_ - done_) / static_cast<double>(done_);
@@ -42,9 +42,13 @@ class Budget {
     ++done_;
     return true;
   }
+  // Whether the measurement under way has to be given up.
+  bool is_over() const { return is_stopped() || calc_spent() > options_.budget; }
   bool is_stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
  private:
+  double calc_spent() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
   const LimitsOptions& options_;
   std::size_t count_, done_ = 0;
   std::ostream& log_;
@@ -65,6 +69,12 @@ std::vector<const IntegratorRow*> choose_schemes(const LimitsOptions& options, b
     if (row.implicit == implicit && wanted) schemes.push_back(&row);
   }
   return schemes;
+}
+
+std::string short_number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
 }
 
 // Every second value first, so that a budget that ends early leaves a coarse curve rather than half a one.
@@ -88,11 +98,12 @@ LimitPanel measure_panel(const Variation& variation, const Model& quiet, double 
   // Forward Euler, the first of the table and the last here, takes the longest.
   for (std::size_t k = schemes.size(); k-- > 0;) {
     for (const std::size_t i : make_order(variation.values.size())) {
-      if (budget.begin(share, variation.name + " " + panel.curves[k].integrator)) {
-        panel.curves[k].points.push_back({variation.values[i], find_limit(models[i], *schemes[k])});
-      } else {
-        ++missing;
-      }
+      ++missing;
+      if (!budget.begin(share, variation.name + " " + panel.curves[k].integrator)) continue;
+      const Limit limit = find_limit(models[i], *schemes[k], [&] { return budget.is_over(); });
+      if (budget.is_over()) continue;
+      panel.curves[k].points.push_back({variation.values[i], limit});
+      --missing;
     }
   }
   for (LimitCurve& curve : panel.curves)
@@ -107,17 +118,19 @@ LimitPanel measure_panel(const Variation& variation, const Model& quiet, double 
 
 void measure_implicit(const LimitsOptions& options, const Simulation& simulation, const Model& quiet, Budget& budget,
                       Limits& limits) {
-  constexpr int steps = 100;
+  const GrowthWatch watch{100, 0.0, false, [&] { return budget.is_over(); }};
   const Perturbation perturbation(quiet);
   const double frame = simulation.settings().time.step;
   for (const IntegratorRow* scheme : choose_schemes(options, true)) {
     for (const double factor : {1.0, 10.0, 100.0}) {
-      if (!budget.begin(1.0, std::string(scheme->name))) {
-        limits.notes.push_back(std::string(scheme->name) + ": left out from a step of " + exact_text(factor * frame) +
-                               " s on, the budget (--budget) was used up");
+      double gain = 0.0;
+      const bool begun = budget.begin(1.0, std::string(scheme->name));
+      if (begun) gain = perturbation.calc_gain(*scheme, simulation.settings().solver, factor * frame, watch);
+      if (!begun || budget.is_over()) {
+        limits.notes.push_back(std::string(scheme->name) + ": left out from a step of " + short_number(factor * frame) +
+                               " s on, " + (budget.is_stopped() ? "stopped" : "the budget (--budget) was used up"));
         break;
       }
-      const double gain = perturbation.calc_gain(*scheme, simulation.settings().solver, factor * frame, steps);
       limits.runs.push_back({std::string(scheme->name), factor * frame, gain});
     }
   }

@@ -20,7 +20,7 @@ struct LimitsOptions {
   std::vector<std::string> integrators;  // none: all that know time
   std::vector<std::string> quantities;   // none: all of variation_names()
   int points = 7;                        // of each quantity
-  double budget = 60.0;                  // s: no measurement begins after it
+  double budget = 60.0;                  // s, of all measurements; the one under way is given up then
   std::vector<std::string> overrides;
   bool json = false;
   int threads = 1;

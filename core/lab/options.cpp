@@ -84,7 +84,7 @@ void add_limits(CLI::App& app, LimitsOptions& options) {
   limits->add_option("--points", options.points, "Values of each quantity, default 7")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  limits->add_option("--budget", options.budget, "Begin no measurement after this time, default 60 s")
+  limits->add_option("--budget", options.budget, "Time for the measurements, default 60 s")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.0, 1e9));
   add_threads(*limits, options.threads);

@@ -72,8 +72,8 @@ TEST(Limits, AreWhereAPerturbationBeginsToGrow) {
 
 TEST(Limits, OfImplicitSchemesAreNotFound) {
   const Model model = load_quiet(make_oscillator(0.0));
-  EXPECT_LE(Perturbation(model).calc_gain(*find_integrator("backward_euler"), {}, 10.0, 20), 1.0 + 1e-9);
-  EXPECT_GT(Perturbation(model).calc_gain(*find_integrator("symplectic_euler"), {}, 10.0, 20), 1e6);
+  EXPECT_LE(Perturbation(model).calc_gain(*find_integrator("backward_euler"), {}, 10.0, {20}), 1.0 + 1e-9);
+  EXPECT_GT(Perturbation(model).calc_gain(*find_integrator("symplectic_euler"), {}, 10.0, {20}), 1e6);
 }
 
 // k_d = 2 N.s: a damper of 4 N.s/m, so c = 20 / s.
@@ -218,6 +218,21 @@ TEST_F(LimitsVerb, SaysWhatItLeavesOut) {
   ASSERT_EQ(limits_verb(options_, out_, log_), 0);
   EXPECT_NE(log_.str().find("poisson: the scene has no body of tetrahedra"), std::string::npos) << log_.str();
   EXPECT_NE(log_.str().find("stiffness: 7 of 7 measurements were left out"), std::string::npos) << log_.str();
+}
+
+TEST_F(LimitsVerb, EndsWhenItIsStopped) {
+  const std::atomic<bool> stop = true;
+  options_.stop = &stop;
+  EXPECT_EQ(limits_verb(options_, out_, log_), 1);
+  EXPECT_NE(log_.str().find("28 of 28 measurements were left out, stopped"), std::string::npos) << log_.str();
+  EXPECT_TRUE(Json::parse(out_.str())["implicit"].empty());
+}
+
+TEST(Limits, AMeasurementWithoutTimeIsGivenUp) {
+  int asked = 0;
+  find_limit(load_quiet(make_oscillator(2.0)), *find_integrator("forward_euler"), [&] { return ++asked > 0; });
+  EXPECT_GT(asked, 0);
+  EXPECT_LT(asked, 20);
 }
 
 TEST_F(LimitsVerb, ASceneThatIsHeldEverywhereIsRefused) {
