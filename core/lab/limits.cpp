@@ -159,9 +159,6 @@ Result<void> write(const std::filesystem::path& path, const std::string& text) {
 }
 
 Result<void> write_files(const LimitsOptions& options, const Limits& limits) {
-  std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error) return Error{options.folder.string() + ": cannot be made: " + error.message()};
   if (auto done = write(options.folder / "limits.csv", make_limits_csv(limits)); !done) return done;
   if (auto done = write(options.folder / "limits.json", make_limits_json(limits).dump(2) + "\n"); !done) return done;
   return write(options.folder / "limits.svg", make_svg(make_limits_plot(limits)));
@@ -221,6 +218,9 @@ int limits_verb(const LimitsOptions& options, std::ostream& out, std::ostream& l
     log << "flexcast-lab: " << reason << std::endl;
     return 1;
   };
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error) return refuse(options.folder.string() + ": cannot be made: " + error.message());
   const auto limits = find_limits(options, log);
   if (!limits) return refuse(limits.error().message);
   if (const auto written = write_files(options, limits.value()); !written) return refuse(written.error().message);

@@ -1,5 +1,6 @@
 #include "core/lab/limits_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -148,7 +149,9 @@ std::optional<LimitPower> calc_power(const Variation& variation, const LimitCurv
 
 std::string make_limits_text(const Limits& limits) {
   std::string text;
-  for (const LimitPanel& panel : limits.panels) text += make_panel_text(panel);
+  const auto is_empty = [](const LimitCurve& curve) { return curve.points.empty(); };
+  for (const LimitPanel& panel : limits.panels)
+    if (!std::all_of(panel.curves.begin(), panel.curves.end(), is_empty)) text += make_panel_text(panel);
   text += make_implicit_text(limits);
   const Extremes extremes = find_extremes(limits);
   if (!extremes.least) return text;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -233,6 +235,13 @@ TEST(Limits, AMeasurementWithoutTimeIsGivenUp) {
   find_limit(load_quiet(make_oscillator(2.0)), *find_integrator("forward_euler"), [&] { return ++asked > 0; });
   EXPECT_GT(asked, 0);
   EXPECT_LT(asked, 20);
+}
+
+TEST_F(LimitsVerb, AFolderThatCannotBeMadeIsRefusedBeforeAnythingIsMeasured) {
+  options_.folder = options_.scene / "results";
+  options_.scene = folder_ / "none.toml";
+  EXPECT_EQ(limits_verb(options_, out_, log_), 1);
+  EXPECT_NE(log_.str().find("results: cannot be made"), std::string::npos) << log_.str();
 }
 
 TEST_F(LimitsVerb, ASceneThatIsHeldEverywhereIsRefused) {
