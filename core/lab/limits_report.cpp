@@ -156,7 +156,8 @@ std::string make_limits_text(const Limits& limits) {
   const Extremes extremes = find_extremes(limits);
   if (!extremes.least) return text;
   text += "measured over predicted: from " + short_text("%.4f", extremes.least->ratio) + " (" + extremes.least->where +
-          ") to " + short_text("%.4g", extremes.largest->ratio) + " (" + extremes.largest->where + ")\n";
+          ") to " + short_text("%.4g", extremes.largest->ratio) + " (" + extremes.largest->where +
+          "), to 1 %: growth was seen at a step that much longer\n";
   if (extremes.least->ratio < 1.0) text += "The advertised limit is above the true one there: a bug of the engine.\n";
   return text;
 }
