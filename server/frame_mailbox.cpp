@@ -19,7 +19,7 @@ void FrameMailbox::begin_scene(std::int64_t particles) {
   rings_.splice(rings_.end(), ring);
 }
 
-bool FrameMailbox::push(const FrameHeader& header, const State& state) {
+bool FrameMailbox::push(const FrameHeader& header, const State& state, ParticleFields* fields) {
   Frame* frame = nullptr;
   {
     const std::scoped_lock lock(mutex_);
@@ -31,6 +31,9 @@ bool FrameMailbox::push(const FrameHeader& header, const State& state) {
   frame->header = header;
   frame->positions = state.positions;  // sizes agree, so nothing is allocated
   frame->velocities = state.velocities;
+  FLEXCAST_CHECK(fields != nullptr || !(header.format.stretch || header.format.stress));
+  if (header.format.stretch) fields->calc_stretch(state.positions, frame->stretch);
+  if (header.format.stress) fields->calc_stress(state.positions, frame->stress);
   {
     const std::scoped_lock lock(mutex_);
     rings_.back().commit(frame);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/sim/particle_fields.h"
 #include "core/state/state.h"
 #include "server/convert/clock.h"
 #include "server/convert/notice_types.h"
@@ -26,8 +27,9 @@ class FrameMailbox {
 
   // Frames pushed from now on have so many particles. Those that wait are still taken.
   void begin_scene(std::int64_t particles);
-  // Copies the state. False: no room, nothing was copied. Allocates nothing.
-  bool push(const FrameHeader& header, const State& state);
+  // Copies the state. False: no room, nothing was copied. Allocates nothing, but for stretch and stress: these are
+  // computed here when the format has them, and `fields` is of the state's model then.
+  bool push(const FrameHeader& header, const State& state, ParticleFields* fields = nullptr);
   void post(std::vector<Notice> notices);
   void post(WorldStatus status);
   bool status_wanted() const { return status_wanted_.load(std::memory_order_relaxed); }  // until a status is posted

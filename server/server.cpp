@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "server/convert/frames.h"
+#include "core/sim/frame_size.h"
 #include "server/name.h"
 #include "server/world_claim.h"
 

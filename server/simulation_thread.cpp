@@ -70,6 +70,7 @@ void SimulationThread::follow(std::uint64_t run, double time) {
   if (world_.topology_revision() != topology_revision_) {
     mailbox_.begin_scene(world_.simulation().model().particle_count());
     topology_revision_ = world_.topology_revision();
+    fields_.reset();
   }
   if (world_.run_id() != run) {
     pending_.reset();
@@ -96,8 +97,15 @@ void SimulationThread::hand_frame_over() {
     drop_pending_frame();
     pending_ = header;
   }
-  if (pending_ && mailbox_.push(*pending_, world_.simulation_state())) pending_.reset();
+  if (pending_ && mailbox_.push(*pending_, world_.simulation_state(), find_fields())) pending_.reset();
   handed_over_ = !pending_;
+}
+
+// Null: the frame that waits has neither stretch nor stress.
+ParticleFields* SimulationThread::find_fields() {
+  if (!pending_->format.stretch && !pending_->format.stress) return nullptr;
+  if (!fields_) fields_.emplace(world_.simulation().model());
+  return &*fields_;
 }
 
 void SimulationThread::drop_pending_frame() {

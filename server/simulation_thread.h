@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/sim/particle_fields.h"
 #include "server/frame_mailbox.h"
 #include "server/pacer.h"
 #include "server/queue.h"
@@ -42,6 +43,7 @@ class SimulationThread {
   void follow(std::uint64_t run, double time);
   void step();
   void hand_frame_over();
+  ParticleFields* find_fields();
   void drop_pending_frame();
   void hand_on();  // notices, replies; status when wanted or the state changed
   void post_status();
@@ -52,7 +54,8 @@ class SimulationThread {
   FrameMailbox& mailbox_;
   Pacer pacer_;
   RateMeter meter_;
-  std::optional<FrameHeader> pending_;  // of the present state: found no room yet
+  std::optional<FrameHeader> pending_;    // of the present state: found no room yet
+  std::optional<ParticleFields> fields_;  // of the present scene, made when a frame first needs it
   std::uint64_t frames_skipped_ = 0;
   std::uint64_t topology_revision_ = 0;  // of the mailbox's scene
   std::uint64_t posted_run_ = 0;         // of the last status

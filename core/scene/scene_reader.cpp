@@ -45,10 +45,18 @@ SolverSettings read_solver(const TableReader& reader) {
 
 StreamSettings read_stream(const TableReader& reader) {
   StreamSettings stream;
-  stream.fields = reader.choices("fields", {"positions", "velocities"}).value_or(stream.fields);
+  stream.fields = reader.choices("fields", {"positions", "velocities", "stretch", "stress"}).value_or(stream.fields);
   stream.precision = read_parameter(reader, scene, "precision", stream.precision);
   stream.every = read_parameter(reader, scene, "every", stream.every);
   return stream;
+}
+
+// A spring has a tension but no area.
+void check_stress(const TableReader& reader, const StreamSettings& stream, const std::vector<BodyDescription>& bodies) {
+  const bool wanted = std::find(stream.fields.begin(), stream.fields.end(), "stress") != stream.fields.end();
+  const bool has_tetrahedra = std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.law; });
+  if (wanted && !has_tetrahedra)
+    reader.refuse_value("fields", "has \"stress\", which only tetrahedra have; expected a [[body]] of model \"fem\"");
 }
 
 void check_new_name(const std::string& name, const Place& place, const std::vector<std::string_view>& others) {
@@ -137,9 +145,12 @@ SceneDescription read_scene(const toml::table& document) {
   if (const auto solver = top.table("solver"))
     description.settings.solver =
         read_solver({*solver, {"linear", "linear_tolerance", "newton_iterations", "newton_tolerance", "iterations"}});
-  if (const auto stream = top.table("stream"))
-    description.settings.stream = read_stream({*stream, {"fields", "precision", "every"}});
   description.bodies = read_bodies(top);
+  if (const auto stream = top.table("stream")) {
+    const TableReader reader(*stream, {"fields", "precision", "every"});
+    description.settings.stream = read_stream(reader);
+    check_stress(reader, description.settings.stream, description.bodies);
+  }
   check_handle_names(description.bodies);
   description.obstacles = read_contacts(top);
   description.probes = read_probes(top, description.bodies);

@@ -167,7 +167,7 @@ void add_scene_rows(std::vector<ParameterRow>& rows) {
   rows.push_back(settings_row("stream.every", "", count, "publish every n-th step", stream, &StreamSettings::every));
   rows.push_back(fixed(with_choices(
       settings_row("stream.precision", "", ranges::any, "of what is published", stream, &StreamSettings::precision),
-      {"float32", "float64"})));
+      {"float32", "float64", "quantized16"})));
 }
 
 void add_body_rows(std::vector<ParameterRow>& rows) {

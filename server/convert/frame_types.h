@@ -4,18 +4,9 @@
 #include <cstdint>
 
 #include "core/base/math.h"
-#include "core/sim/settings.h"
+#include "core/sim/stream_format.h"
 
 namespace flexcast::server {
-
-// What a frame shows to the network.
-struct StreamFormat {
-  bool positions = true;
-  bool velocities = false;
-  bool doubles = false;  // float64 instead of float32
-};
-
-StreamFormat make_stream_format(const StreamSettings& settings);
 
 struct FrameHeader {
   std::uint64_t run_id = 0;
@@ -27,11 +18,13 @@ struct FrameHeader {
   StreamFormat format;
 };
 
-// Velocities are there whatever the format: the state's hash needs them.
+// Positions and velocities are there whatever the format: the state's hash needs them.
 struct Frame {
   FrameHeader header;
   VecX positions;   // m, 3 n
   VecX velocities;  // m/s, 3 n
+  VecX stretch;     // 1, n, when the format has it
+  VecX stress;      // Pa, n, likewise
 };
 
 }  // namespace flexcast::server

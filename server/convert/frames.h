@@ -2,19 +2,12 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
+#include "core/sim/frame_payload.h"
 #include "idl/wire/owned.h"
 #include "server/convert/frame_types.h"
 
 namespace flexcast::server {
-
-// What one frame takes on the wire, and in how many samples.
-struct FrameSize {
-  std::size_t bytes = 0;
-  std::uint32_t chunks = 1;
-};
-FrameSize calc_frame_size(std::int64_t particles, const StreamFormat& format);
 
 // One message, filled anew for each chunk of each frame. Keeps its buffers.
 class FrameMessage {
@@ -30,8 +23,7 @@ class FrameMessage {
 
  private:
   wire::Owned<flexcast_ParticleFrame> message_;
-  const Frame* frame_ = nullptr;
-  std::vector<float> positions_, velocities_;  // of float32 streams
+  FramePayload payload_;
 };
 
 }  // namespace flexcast::server

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "idl/wire/fill.h"
-#include "server/convert/chunks.h"
+#include "core/sim/chunks.h"
 
 namespace flexcast::server {
 namespace {

@@ -57,6 +57,28 @@ TEST(FrameMailbox, HandsFramesOnInOrderAndUnchanged) {
   EXPECT_EQ(mailbox.take(), nullptr);
 }
 
+TEST(FrameMailbox, ComputesTheFieldsOfItsFramesWhenTheFormatHasThem) {
+  Model model;
+  model.rest_positions = VecX::LinSpaced(3 * particles, 0.0, 3.0 * particles - 1);
+  model.springs = {{0, 1}};
+  Body& body = model.bodies.emplace_back();
+  body.particles = {0, particles};
+  body.springs = {0, 1};
+  ParticleFields fields(model);
+  State state = make_state(1.0);
+  state.positions = 2.0 * model.rest_positions;
+  FrameMailbox mailbox(particles);
+  FrameHeader header = make_header(0);
+  header.format.stretch = true;
+  ASSERT_TRUE(mailbox.push(header, state, &fields));
+  ASSERT_TRUE(mailbox.push(make_header(1), state, nullptr));
+  const Frame* frame = mailbox.take();
+  ASSERT_EQ(frame->stretch.size(), particles);
+  EXPECT_NEAR(frame->stretch[0], 1.0, 1e-15);
+  EXPECT_EQ(frame->stretch[2], 0.0);
+  EXPECT_EQ(frame->stress.size(), 0);
+}
+
 TEST(FrameMailbox, RefusesWhenFullAndTheNumbersShowTheGap) {
   FrameMailbox mailbox(particles, {.frames = 4});
   ASSERT_EQ(mailbox.capacity(), 4u);

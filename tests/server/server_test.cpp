@@ -17,7 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The scenes of the servers below: "rope", "pair" with two bodies, and "long" with frames above 4 MiB.
+// The scenes of the servers below: "rope", "pair" with two bodies, "soft" with every field in 16 bits, and "long" with
+// frames above 4 MiB.
 std::filesystem::path write_scene() {
   static const test::Folder folder;
   const auto path = folder.path() / "rope.toml";
@@ -29,6 +30,17 @@ mesh = { shape = "rope", cells = [20], size = [1.0] }
 springs = { stiffness = 1.0 }
 mass = 0.01
 )");
+  std::ofstream(folder.path() / "soft.toml") << R"(name = "soft"
+[[body]]
+name = "cube"
+model = "fem"
+mesh = { shape = "beam", cells = [1, 1, 1], size = [1.0, 1.0, 1.0] }
+material = { law = "linear", young = 1e5, poisson = 0.0, density = 1000.0 }
+displacement = [ { select = { nodes = [1, 3, 5, 7] }, value = [0.25, 0.0, 0.0] } ]
+[stream]
+fields = ["positions", "velocities", "stretch", "stress"]
+precision = "quantized16"
+)";
   std::string longest =
       test::rope_scene("[stream]\nfields = [\"positions\", \"velocities\"]\nprecision = \"float64\"\n");
   longest.replace(longest.find("cells = [10]"), 12, "cells = [90000]");
@@ -244,6 +256,32 @@ TEST(Server, ALoadedSceneIsPublishedAnewAndLateReadersSeeNothingOfTheOldOne) {
   std::this_thread::sleep_for(100ms);  // what else there may be
   auto others = topologies.take();
   for (auto [topology, info] : others.value()) EXPECT_FALSE(info.valid) << "body " << topology.body;
+}
+
+TEST(Server, PublishesTheFieldsAndThePrecisionThatTheSceneNames) {
+  const auto server = start_paused_server();
+  Client client;
+  auto command = Client::make(flexcast_COMMAND_LOAD);
+  wire::set_string(command->name, "soft");
+  const auto reply = client.ask(command);
+  ASSERT_EQ(reply->outcome, flexcast_OUTCOME_APPLIED) << wire::text(reply->reason);
+  auto scenes = wire::Reader<flexcast_SceneInfo>::create(client.participant()).value();
+  const auto scene = wait_for_run(scenes, reply->run_id);
+  EXPECT_EQ(wire::text(scene->precision), "quantized16");
+  EXPECT_EQ(wire::strings(scene->fields), (std::vector<std::string>{"positions", "velocities", "stretch", "stress"}));
+  auto frames = wire::Reader<flexcast_ParticleFrame>::create(client.participant()).value();
+  const auto frame = wait_for_run(frames, reply->run_id);
+  EXPECT_EQ(frame->positions._length + frame->positions64._length + frame->velocities64._length, 0u);
+  ASSERT_EQ(frame->positions16._length, 24u);
+  EXPECT_EQ(frame->positions16._buffer[3], 65535u);  // node 1 has the largest x
+  EXPECT_EQ(frame->bounds[3], 1.25);
+  EXPECT_EQ(frame->velocities._length, 24u);
+  ASSERT_EQ(frame->stretch._length, 8u);
+  ASSERT_EQ(frame->stress._length, 8u);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_FLOAT_EQ(frame->stretch._buffer[i], 0.25f);
+    EXPECT_FLOAT_EQ(frame->stress._buffer[i], 1e5f * 0.25f);
+  }
 }
 
 TEST(Server, ASceneWithFramesTooLargeForItsStreamIsNotLoaded) {

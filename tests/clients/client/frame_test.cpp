@@ -81,7 +81,13 @@ TEST(FrameAssembler, DecodesEveryPrecision) {
   wire::copy(wide->positions64, std::array{0.1, 0.2, 0.3});
   wire::copy(wide->velocities64, std::array{1.0, 2.0, 3.0});
   wire::copy(wide->stretch, std::array{1.5f});
-  EXPECT_EQ(assembler.add(*wide)->positions, (std::vector{0.1, 0.2, 0.3}));
+  wire::copy(wide->stress, std::array{250.0f});
+  const auto whole = assembler.add(*wide);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->positions, (std::vector{0.1, 0.2, 0.3}));
+  EXPECT_EQ(whole->velocities, (std::vector{1.0, 2.0, 3.0}));
+  EXPECT_EQ(whole->stretch, (std::vector{1.5}));
+  EXPECT_EQ(whole->stress, (std::vector{250.0}));
 
   Sample narrow = chunk_of(1, 1, 0, 1);
   const double bounds[6] = {-1, 0, 2, 1, 0, 4};

@@ -93,13 +93,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "mean \"beam\"?"},
         Refusal{"ProbeNodeBeyondTheBody", "at = [2.0, 0.0, 0.0]", "node = 12",
                 "test.toml:16: [[probe]] \"tip\": node = 12 is out of range (allowed: 0 to 11)"},
-        Refusal{"LaterStreamField", "step = 0.001\n", "step = 0.001\n[stream]\nfields = [\"positions\", \"stress\"]\n",
-                "test.toml:6: stream.fields[1] = \"stress\" is not known (allowed: \"positions\", \"velocities\")"},
+        Refusal{"UnknownStreamField", "step = 0.001\n",
+                "step = 0.001\n[stream]\nfields = [\"positions\", \"stretsh\"]\n",
+                "test.toml:6: stream.fields[1] = \"stretsh\" is not known (allowed: \"positions\", \"velocities\", "
+                "\"stretch\", \"stress\"); did you mean \"stretch\"?"},
         Refusal{"StreamFieldTwice", "step = 0.001\n",
                 "step = 0.001\n[stream]\nfields = [\"positions\", \"positions\"]\n",
                 "test.toml:6: stream.fields[1] = \"positions\" is there twice"},
-        Refusal{"LaterPrecision", "step = 0.001\n", "step = 0.001\n[stream]\nprecision = \"quantized16\"\n",
-                "test.toml:6: stream.precision = \"quantized16\" is not known (allowed: \"float32\", \"float64\")"},
+        Refusal{"UnknownPrecision", "step = 0.001\n", "step = 0.001\n[stream]\nprecision = \"quantised16\"\n",
+                "test.toml:6: stream.precision = \"quantised16\" is not known (allowed: \"float32\", \"float64\", "
+                "\"quantized16\"); did you mean \"quantized16\"?"},
         Refusal{"MissingMeshFile", "{ shape = \"grid\", cells = [2, 2], size = [1.0, 1.0] }", "{ file = \"\" }",
                 "test.toml:13: [[body]] \"cloth\": mesh.file = \"\" is empty; expected the name of a file"}),
     claim);
@@ -321,6 +324,16 @@ TEST(SceneRefusal, NamesTheFileThatCannotBeRead) {
 TEST(SceneRefusal, OfTheEmptySceneNamesWhatIsMissing) {
   EXPECT_TRUE(refusal("").starts_with("test.toml:1: missing key name; expected a name")) << refusal("");
   EXPECT_EQ(refusal("name = \"a\"\n"), "test.toml:1: a scene needs a [[body]]; there is none");
+}
+
+TEST(SceneRefusal, OfStressNamesTheKeyWhereNothingHasTetrahedra) {
+  const std::string rope =
+      "name = \"rope\"\n[stream]\nfields = [\"positions\", \"stress\"]\n[[body]]\nname = \"rope\"\nmodel = "
+      "\"mass_spring\"\nmesh = { shape = \"rope\", cells = [2], size = [1.0] }\nsprings = { stiffness = 1.0 }\nmass "
+      "= 1.0\n";
+  EXPECT_EQ(refusal(rope),
+            "test.toml:3: stream.fields = [\"positions\", \"stress\"] has \"stress\", which only tetrahedra have; "
+            "expected a [[body]] of model \"fem\"");
 }
 
 }  // namespace

@@ -46,7 +46,9 @@ TEST(Scene, CarriesWhatItsFileSays) {
       "step = 2\nintegrator = \"rk4\"\nsubsteps = 7\nduration = 4.5\n"
       "[solver]\nlinear = \"pcg\"\nlinear_tolerance = 1e-9\nnewton_iterations = 1\nnewton_tolerance = 1e-4\niterations "
       "= 3\n"
-      "[stream]\nfields = [\"velocities\", \"positions\"]\nprecision = \"float64\"\nevery = 3\n";
+      "[stream]\nfields = [\"velocities\", \"positions\", \"stretch\", \"stress\"]\nprecision = \"quantized16\"\nevery "
+      "= "
+      "3\n";
   const std::string described = changed("gravity", "description = \"two bodies\"\ngravity");
   const Scene scene = loaded(changed("step = 0.001\n", tables, described));
   const Settings& settings = scene.simulation->settings();
@@ -61,8 +63,8 @@ TEST(Scene, CarriesWhatItsFileSays) {
   EXPECT_EQ(settings.solver.newton_iterations, 1);
   EXPECT_EQ(settings.solver.newton_tolerance, 1e-4);
   EXPECT_EQ(settings.solver.iterations, 3);
-  EXPECT_EQ(settings.stream.fields, (std::vector<std::string>{"velocities", "positions"}));
-  EXPECT_EQ(settings.stream.precision, "float64");
+  EXPECT_EQ(settings.stream.fields, (std::vector<std::string>{"velocities", "positions", "stretch", "stress"}));
+  EXPECT_EQ(settings.stream.precision, "quantized16");
   EXPECT_EQ(settings.stream.every, 3);
 }
 

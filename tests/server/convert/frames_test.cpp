@@ -4,9 +4,10 @@
 
 #include <random>
 
+#include "core/sim/chunks.h"
+#include "core/sim/frame_size.h"
 #include "core/sim/state_hash.h"
 #include "idl/wire/fill.h"
-#include "server/convert/chunks.h"
 
 namespace flexcast::server {
 namespace {
@@ -23,11 +24,15 @@ Frame make_frame(std::int64_t particles, const StreamFormat& format) {
   frame.header.format = format;
   frame.positions = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
   frame.velocities = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
+  if (format.stretch) frame.stretch = VecX::NullaryExpr(particles, [&] { return uniform(random); });
+  if (format.stress) frame.stress = VecX::NullaryExpr(particles, [&] { return 1e5 * uniform(random); });
   return frame;
 }
 
-constexpr StreamFormat all_floats{true, true, false};
-constexpr StreamFormat all_doubles{true, true, true};
+constexpr StreamFormat all_floats{.velocities = true};
+constexpr StreamFormat all_doubles{.velocities = true, .precision = StreamPrecision::float64};
+constexpr StreamFormat everything_small{
+    .velocities = true, .precision = StreamPrecision::quantized16, .stretch = true, .stress = true};
 
 TEST(FrameMessage, CarriesTheHeaderAndTheHashOfTheDoubles) {
   const Frame frame = make_frame(100, {});
@@ -74,7 +79,7 @@ TEST(FrameMessage, DoublesAreTheStatesOwn) {
 }
 
 TEST(FrameMessage, SendsNoFieldThatWasNotAskedFor) {
-  const Frame frame = make_frame(10, {true, false, false});
+  const Frame frame = make_frame(10, {});
   FrameMessage message("rope");
   message.assign(frame);
   const auto& sample = message.chunk(0);
@@ -125,6 +130,49 @@ TEST(FrameMessage, ChunksCoverEveryParticleExactlyOnceAndStayBelowOneMebibyte) {
     next += count;
   }
   EXPECT_EQ(next, particles);
+}
+
+// What a reader sees of a quantized frame with every field, chunk by chunk.
+TEST(FrameMessage, QuantizedChunksShowTheirParticlesOfEveryField) {
+  constexpr std::uint32_t particles = 100'001;
+  const Frame frame = make_frame(particles, everything_small);
+  FrameMessage message("rope");
+  message.assign(frame);
+  EXPECT_EQ(message.chunks(), 3u);  // 26 bytes a particle
+  std::uint32_t next = 0;
+  for (std::uint32_t chunk = 0; chunk < message.chunks(); ++chunk) {
+    const auto& sample = message.chunk(chunk);
+    EXPECT_EQ(sample.first, next);
+    EXPECT_EQ(sample.positions._length + sample.positions64._length + sample.velocities64._length, 0u);
+    const std::uint32_t count = sample.stretch._length;
+    ASSERT_EQ(sample.positions16._length, 3 * count);
+    ASSERT_EQ(sample.velocities._length, 3 * count);
+    ASSERT_EQ(sample.stress._length, count);
+    EXPECT_LE(count * calc_particle_bytes(everything_small), chunk_bytes - chunk_overhead);
+    for (std::uint32_t i = 0; i < count; i += 331) {
+      const auto particle = static_cast<Eigen::Index>(next + i);
+      const double low = sample.bounds[1], extent = sample.bounds[4] - low;
+      const double y = low + extent * (sample.positions16._buffer[3 * i + 1] / 65535.0);
+      ASSERT_NEAR(y, frame.positions[3 * particle + 1], 0.500001 * extent / 65535.0);
+      ASSERT_EQ(sample.velocities._buffer[3 * i], static_cast<float>(frame.velocities[3 * particle]));
+      ASSERT_EQ(sample.stretch._buffer[i], static_cast<float>(frame.stretch[particle]));
+      ASSERT_EQ(sample.stress._buffer[i], static_cast<float>(frame.stress[particle]));
+    }
+    next += count;
+  }
+  EXPECT_EQ(next, particles);
+}
+
+TEST(FrameMessage, AQuantizedWorldOfOneParticleIsItsBounds) {
+  const Frame frame = make_frame(1, {.precision = StreamPrecision::quantized16});
+  FrameMessage message("rope");
+  message.assign(frame);
+  const auto& sample = message.chunk(0);
+  ASSERT_EQ(sample.positions16._length, 3u);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(sample.positions16._buffer[axis], 0u);
+    EXPECT_EQ(sample.bounds[axis], frame.positions[axis]);
+  }
 }
 
 TEST(FrameMessage, AFrameUpToOneMebibyteIsOneSample) {

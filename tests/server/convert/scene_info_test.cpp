@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/sim/chunks.h"
 #include "idl/wire/fill.h"
-#include "server/convert/chunks.h"
 #include "tests/support/scene.h"
 
 namespace flexcast::server {

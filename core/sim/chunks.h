@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace flexcast::server {
+namespace flexcast {
 
 inline constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 inline constexpr std::size_t chunk_overhead = 512;  // fixed fields, world name, sequence lengths
@@ -26,4 +26,4 @@ inline ChunkRun chunk_run(std::size_t count, std::uint32_t chunk, std::uint32_t 
   return {first, count * (chunk + 1) / chunks - first};
 }
 
-}  // namespace flexcast::server
+}  // namespace flexcast
