@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     (end->exit_code == 0 ? std::cout : std::cerr) << end->text;
     return end->exit_code;
   }
+  const bool terminal = isatty(STDERR_FILENO) != 0;
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   if (auto* modes = std::get_if<flexcast::ModesOptions>(&command)) {
@@ -35,11 +36,21 @@ int main(int argc, char** argv) {
   if (const auto* plot = std::get_if<flexcast::PlotOptions>(&command)) return flexcast::plot_verb(*plot, std::cerr);
   if (auto* limits = std::get_if<flexcast::LimitsOptions>(&command)) {
     limits->stop = &stop;
-    limits->progress = isatty(STDERR_FILENO) != 0;
+    limits->progress = terminal;
     return flexcast::limits_verb(*limits, std::cout, std::cerr);
+  }
+  if (auto* trade = std::get_if<flexcast::StreamTradeOptions>(&command)) {
+    trade->stop = &stop;
+    trade->progress = terminal;
+    return flexcast::stream_trade_verb(*trade, std::cout, std::cerr);
+  }
+  if (auto* cost = std::get_if<flexcast::SceneCostOptions>(&command)) {
+    cost->stop = &stop;
+    cost->progress = terminal;
+    return flexcast::scene_cost_verb(*cost, std::cout, std::cerr);
   }
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;
-  options.progress = isatty(STDERR_FILENO) != 0;
+  options.progress = terminal;
   return flexcast::run_verb(options, std::cout, std::cerr);
 }

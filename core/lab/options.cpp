@@ -114,6 +114,36 @@ void add_plot(CLI::App& app, PlotOptions& options) {
       ->type_name("FILE");
 }
 
+void add_scene_cost(CLI::App& app, SceneCostOptions& options) {
+  CLI::App* cost =
+      app.add_subcommand("scene-cost", "Say what each feature of a scene costs per step, by leaving it out.");
+  cost->footer("Example:\n  flexcast-lab scene-cost server/scenes/drape.toml --budget 10");
+  cost->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  cost->add_option("--steps", options.steps, "Steps of each variant at most")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  cost->add_option("--budget", options.budget, "Seconds after which no further round of steps begins")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  add_threads(*cost, options.threads);
+  add_overrides(*cost, options.overrides);
+  cost->add_flag("--json", options.json, "Print JSON");
+}
+
+void add_trade(CLI::App& app, StreamTradeOptions& options) {
+  CLI::App* trade = app.add_subcommand("trade", "Print what a scene's stream costs and loses in each of its formats.");
+  trade->footer("Example:\n  flexcast-lab trade server/scenes/cantilever.toml --stream --until 1 -o formats");
+  trade->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  trade->add_flag("--stream")->description("Bytes against errors of the formats of the stream")->required();
+  trade->add_option("--until", options.until, "Simulated time, s; default: the scene's duration, or 1000 steps")
+      ->type_name("T")
+      ->check(check_time);
+  trade->add_option("-o,--output", options.directory, "Folder for stream.csv and stream.json")->type_name("DIR");
+  add_threads(*trade, options.threads);
+  add_overrides(*trade, options.overrides);
+  trade->add_flag("--json", options.json, "Print JSON");
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Run a scene and print the report of its last step and its probes.");
   run->footer(footer);
@@ -144,6 +174,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   RunOptions run;
   ModesOptions modes;
   BenchOptions bench;
+  StreamTradeOptions trade;
+  SceneCostOptions cost;
   add_run(app, run);
   add_modes(app, modes);
   add_bench(app, bench);
@@ -151,6 +183,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   add_plot(app, plot);
   LimitsOptions limits;
   add_limits(app, limits);
+  add_trade(app, trade);
+  add_scene_cost(app, cost);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -162,6 +196,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   if (app.got_subcommand("bench")) return bench;
   if (app.got_subcommand("plot")) return plot;
   if (app.got_subcommand("limits")) return limits;
+  if (app.got_subcommand("trade")) return trade;
+  if (app.got_subcommand("scene-cost")) return cost;
   return run;
 }
 

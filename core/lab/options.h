@@ -10,6 +10,8 @@
 #include "core/lab/modes.h"
 #include "core/lab/plot_verb.h"
 #include "core/lab/run.h"
+#include "core/lab/scene_cost.h"
+#include "core/lab/stream_trade.h"
 
 namespace flexcast {
 
@@ -20,7 +22,8 @@ struct CommandLineEnd {
 };
 
 // One alternative a verb.
-using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions, LimitsOptions>;
+using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions, LimitsOptions,
+                                StreamTradeOptions, SceneCostOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 

@@ -42,11 +42,23 @@ void check_start(const Simulation& simulation, const SceneDescription& descripti
   }
 }
 
-Scene load(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
-           const std::vector<std::string>& overrides) {
+SceneDescription describe(const std::string& text, const std::string& origin,
+                          const std::vector<std::string>& overrides) {
   toml::table document = parse(text, origin);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
-  const SceneDescription description = read_scene(document);
+  return read_scene(document);
+}
+
+std::unique_ptr<Simulation> simulate(const SceneDescription& description, BuiltScene built) {
+  auto simulation = std::make_unique<Simulation>(std::move(built.model), description.settings, std::move(built.state),
+                                                 std::move(built.probes));
+  check_start(*simulation, description);
+  return simulation;
+}
+
+Scene load(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
+           const std::vector<std::string>& overrides) {
+  const SceneDescription description = describe(text, origin, overrides);
   BuiltScene built = build_scene(description, directory);
 
   Scene scene;
@@ -56,15 +68,11 @@ Scene load(const std::string& text, const std::string& origin, const std::filesy
   scene.overrides = overrides;
   scene.files = std::move(built.files);
   scene.notes = std::move(built.notes);
-  scene.simulation = std::make_unique<Simulation>(std::move(built.model), description.settings, std::move(built.state),
-                                                  std::move(built.probes));
-  check_start(*scene.simulation, description);
+  scene.simulation = simulate(description, std::move(built));
   return scene;
 }
 
-}  // namespace
-
-Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Result<std::string> read_text(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     return Error{file.string() + ": is a folder; expected a scene file (TOML)"};
@@ -74,13 +82,14 @@ Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<st
   if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
   if (!stream.is_open() || stream.bad())
     return Error{file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "unknown reason")};
-  return load_scene_text(std::move(text).str(), file.string(), file.parent_path(), overrides);
+  return std::move(text).str();
 }
 
-Result<Scene> load_scene_text(const std::string& text, const std::string& origin,
-                              const std::filesystem::path& directory, const std::vector<std::string>& overrides) {
+// What `make` returns, or what it throws as an error.
+template <class Make>
+auto guard(const std::string& origin, Make make) -> Result<decltype(make())> {
   try {
-    return load(text, origin, directory, overrides);
+    return make();
   } catch (const SceneError& error) {
     return Error{error.what()};
   } catch (const std::bad_alloc&) {
@@ -88,6 +97,30 @@ Result<Scene> load_scene_text(const std::string& text, const std::string& origin
   } catch (const std::exception& error) {
     return Error{origin + ": " + error.what()};
   }
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const auto text = read_text(file);
+  if (!text) return text.error();
+  return load_scene_text(text.value(), file.string(), file.parent_path(), overrides);
+}
+
+Result<Scene> load_scene_text(const std::string& text, const std::string& origin,
+                              const std::filesystem::path& directory, const std::vector<std::string>& overrides) {
+  return guard(origin, [&] { return load(text, origin, directory, overrides); });
+}
+
+Result<SceneDescription> describe_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const auto text = read_text(file);
+  if (!text) return text.error();
+  return guard(file.string(), [&] { return describe(text.value(), file.string(), overrides); });
+}
+
+Result<std::unique_ptr<Simulation>> make_simulation(const SceneDescription& description,
+                                                    const std::filesystem::path& directory) {
+  return guard(description.name, [&] { return simulate(description, build_scene(description, directory)); });
 }
 
 }  // namespace flexcast

@@ -11,6 +11,8 @@
 
 namespace flexcast {
 
+struct SceneDescription;
+
 // A file the scene refers to, as it was read: recordings carry it.
 struct SceneAttachment {
   std::string name;  // as the scene file writes it; the other half of a TetGen pair beside it
@@ -36,5 +38,11 @@ Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<st
 Result<Scene> load_scene_text(const std::string& text, const std::string& origin = "scene",
                               const std::filesystem::path& directory = ".",
                               const std::vector<std::string>& overrides = {});
+
+// The two halves of loading, for those who change a description in between. `directory` as above.
+Result<SceneDescription> describe_scene(const std::filesystem::path& file,
+                                        const std::vector<std::string>& overrides = {});
+Result<std::unique_ptr<Simulation>> make_simulation(const SceneDescription& description,
+                                                    const std::filesystem::path& directory);
 
 }  // namespace flexcast

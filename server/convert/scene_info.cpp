@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "idl/wire/fill.h"
 #include "core/sim/chunks.h"
+#include "idl/wire/fill.h"
 
 namespace flexcast::server {
 namespace {
