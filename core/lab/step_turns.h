@@ -15,7 +15,7 @@ namespace flexcast {
 struct StepTurnSettings {
   int steps = 500;       // of each, at most
   double budget = 20.0;  // s: as many rounds as fit, but for the least number
-  double sample = 1e-3;  // s: shorter steps are timed several in a row
+  double sample = 2e-4;  // s: shorter steps are timed several in a row; longer samples would be interrupted more often
   int least_rounds = 5;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int round, int rounds)> progress = {};

@@ -1,5 +1,4 @@
-// flexcast-lab scene-cost: what is looked at and told. How much anything costs is nobody's promise; that what a scene
-// does not name costs nothing is one, kept by structure: the same forces act, and every bit is the same.
+// flexcast-lab scene-cost: what is looked at and told. How much anything costs is nobody's promise.
 #include "core/lab/scene_cost.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +9,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <typeinfo>
 
-#include "core/forces/system.h"
-#include "core/integrators/integrator.h"
 #include "core/lab/options.h"
 #include "core/lab/scene_cost_report.h"
 #include "core/lab/scene_features.h"
 #include "core/lab/step_turns.h"
+#include "tests/core/lab/cost_scenes.h"
 #include "tests/support/scene.h"
 
 namespace flexcast::test {
@@ -25,74 +22,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Names = std::vector<std::string>;
-
-// Has everything that can be left out.
-constexpr const char* everything = R"(
-name = "everything"
-gravity = [0, 0, -9.81]
-[time]
-step = 1e-4
-[[body]]
-name = "beam"
-model = "fem"
-mesh = { shape = "beam", cells = [2, 1, 1], size = [0.4, 0.2, 0.2] }
-material = { law = "corotational", young = 1e4, poisson = 0.3, density = 1000.0 }
-damping = { mass = 0.5, stiffness = 0.001 }
-surface_force = [ { select = { box = [[0.39, -1, -1], [1, 1, 1]] }, value = [1.0, 0.0, 0.0] } ]
-handle = [ { name = "grip", select = { box = [[-1e-9, -1, -1], [1e-9, 1, 1]] }, translate = [0.01, 0, 0], duration = 1.0 } ]
-[[body]]
-name = "rope"
-model = "mass_spring"
-mesh = { shape = "rope", cells = [4], size = [1.0] }
-springs = { stiffness = 10.0, damping = 0.001 }
-mass = 0.01
-drag = 0.01
-force = [ { select = { nodes = [4] }, value = [0.1, 0.0, 0.0] } ]
-[[contact]]
-name = "ground"
-shape = "plane"
-point = [0, 0, -0.01]
-normal = [0, 0, 1]
-friction = 0.4
-[[probe]]
-name = "end"
-body = "rope"
-node = 4
-[stream]
-fields = ["positions", "stretch"]
-)";
-
-// Has nothing of it.
-std::string bare(const std::string& integrator) {
-  return "name = \"bare\"\n[time]\nstep = 1e-3\nintegrator = \"" + integrator + "\"\n" + R"([[body]]
-name = "beam"
-model = "fem"
-mesh = { shape = "beam", cells = [2, 1, 1], size = [0.4, 0.2, 0.2] }
-material = { law = "corotational", young = 1e4, poisson = 0.3, density = 1000.0 }
-displacement = [ { select = { nodes = [2, 5] }, value = [0.01, 0.0, 0.01] } ]
-[[body]]
-name = "rope"
-model = "mass_spring"
-mesh = { shape = "rope", cells = [4], size = [1.0] }
-springs = { stiffness = 10.0 }
-mass = 0.01
-origin = [0.0, 1.0, 0.0]
-displacement = [ { select = { nodes = [4] }, value = [0.1, 0.1, 0.0] } ]
-)";
-}
-
-// The same with everything named and put to nothing.
-std::vector<std::string> nothing() {
-  return {"gravity=[0, 0, 0]",
-          "beam.damping={ mass = 0, stiffness = 0 }",
-          "beam.drag=0",
-          "rope.springs={ stiffness = 10.0, damping = 0 }",
-          "rope.damping={ mass = 0 }",
-          "contact=[]",
-          "beam.handle=[]",
-          "rope.force=[]",
-          "beam.surface_force=[]"};
-}
 
 class LabSceneCost : public testing::Test {
  protected:
@@ -245,65 +174,6 @@ TEST(StepTurns, TakeAsManyStepsOfEachAndTellTheirIterations) {
   EXPECT_EQ(turns.simulations[0].seconds.size(), 12u);
   EXPECT_GE(turns.simulations[0].iterations, 1.0);
   EXPECT_EQ(turns.simulations[1].iterations, 0.0);
-}
-
-std::vector<std::string> list_active_forces(const Simulation& simulation) {
-  const System system(simulation.model());
-  std::vector<std::string> names;
-  for (const Force* force : system.active_forces()) names.emplace_back(typeid(*force).name());
-  return names;
-}
-
-// What a scheme asks a system for follows from these and the state alone.
-struct Structure {
-  std::vector<std::string> forces;
-  bool damping = false, friction = false, handles = false;
-  bool operator==(const Structure&) const = default;
-};
-Structure calc_structure(const Simulation& simulation) {
-  const System system(simulation.model());
-  return {list_active_forces(simulation), system.has_damping(), system.has_friction(), system.has_handles()};
-}
-
-class CostsNothing : public testing::TestWithParam<std::string> {};
-
-TEST_P(CostsNothing, WhatIsNamedAndPutToNothing) {
-  const auto never = make(bare(GetParam()));
-  const auto named = std::move(load_scene_text(bare(GetParam()), "scene", ".", nothing()).value().simulation);
-  EXPECT_EQ(calc_structure(*named), calc_structure(*never));
-  EXPECT_EQ(calc_structure(*never), (Structure{list_active_forces(*never)}));
-  EXPECT_EQ(calc_structure(*never).forces.size(), 2u);  // one elastic force a body
-  for (int i = 0; i < 40; ++i) {
-    ASSERT_EQ(never->step(), named->step());
-    ASSERT_EQ(never->calc_state_hash(), named->calc_state_hash()) << i;
-    EXPECT_EQ(never->statistics().iterations, named->statistics().iterations);
-    EXPECT_EQ(never->statistics().linear_iterations, named->statistics().linear_iterations);
-  }
-}
-
-std::vector<std::string> list_integrators() {
-  std::vector<std::string> names;
-  for (const IntegratorRow& row : integrators()) names.emplace_back(row.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Schemes, CostsNothing, testing::ValuesIn(list_integrators()),
-                         [](const auto& scheme) { return scheme.param; });
-
-// A live change to nothing is as good as never having named it.
-TEST(CostsNothing, WhatAParameterPutsToNothingWhileTheSceneRuns) {
-  const auto simulation = std::move(load_scene_text(everything).value().simulation);
-  const Structure before = calc_structure(*simulation);
-  ASSERT_TRUE(simulation->set_parameters(std::vector<ParameterAssignment>{{"gravity", Vec3(0, 0, 0)},
-                                                                          {"beam.damping.mass", 0.0},
-                                                                          {"beam.damping.stiffness", 0.0},
-                                                                          {"rope.damping", 0.0},
-                                                                          {"rope.drag", 0.0},
-                                                                          {"contact.ground.friction", 0.0}}));
-  const Structure after = calc_structure(*simulation);
-  EXPECT_TRUE(before.damping && before.friction);
-  EXPECT_FALSE(after.damping || after.friction);
-  EXPECT_LT(after.forces.size(), before.forces.size());
 }
 
 }  // namespace
