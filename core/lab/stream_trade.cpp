@@ -147,7 +147,7 @@ Result<StreamTrade> trade_stream(const StreamTradeOptions& options, std::ostream
 const StreamTradeRow* find_cheapest(const StreamTrade& trade, double relative_error) {
   const StreamTradeRow* cheapest = nullptr;
   for (const StreamTradeRow& row : trade.rows) {
-    if (row.fields.size() > 1 || !(row.relative_error <= relative_error)) continue;
+    if (!(row.relative_error <= relative_error)) continue;
     if (!cheapest || row.bytes_per_second < cheapest->bytes_per_second) cheapest = &row;
   }
   return cheapest;

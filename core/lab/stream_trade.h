@@ -47,7 +47,8 @@ struct StreamTrade {
 // Runs the scene once and looks at all formats. Errors: a scene that cannot be loaded, that fails or is stopped.
 Result<StreamTrade> trade_stream(const StreamTradeOptions& options, std::ostream& log);
 
-// The row of positions alone with the least bytes a second among those within the error; null: there is none.
+// The row with the least bytes a second among those within the error, always one of positions alone; null: there is
+// none.
 const StreamTradeRow* find_cheapest(const StreamTrade& trade, double relative_error);
 
 // The program's verb; returns the exit code.
