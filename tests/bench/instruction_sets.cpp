@@ -12,7 +12,7 @@ constexpr std::int64_t above_avx2 = HWY_AVX2 - 1;
 
 bool has_avx512() {
   use(InstructionSet::best);
-  return (hwy::SupportedTargets() & HWY_AVX3) != 0;
+  return (hwy::SupportedTargets() & HWY_TARGETS & HWY_AVX3) != 0;
 }
 
 void use(InstructionSet set) {

@@ -14,11 +14,12 @@ struct InstructionSet {
   std::int64_t target = 0;
 };
 
-// What this processor has of the sets with fused multiply-add, which have to agree to the last bit.
+// What this processor has, and kernels were compiled for, of the sets with fused multiply-add, which have to agree to
+// the last bit.
 inline std::vector<InstructionSet> fused_instruction_sets() {
   std::vector<InstructionSet> sets;
   for (const InstructionSet& set : {InstructionSet{"avx2", HWY_AVX2}, InstructionSet{"avx512", HWY_AVX3}}) {
-    if ((hwy::SupportedTargets() & set.target) != 0) sets.push_back(set);
+    if ((hwy::SupportedTargets() & HWY_TARGETS & set.target) != 0) sets.push_back(set);
   }
   return sets;
 }
