@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/integrators/handle_work.h"
+#include "core/integrators/linear_motion.h"
 #include "core/integrators/particle_passes.h"
 
 namespace flexcast {
@@ -31,6 +32,15 @@ double calc_stable_step(double omega, double c) {
   return 4.0 / (c + std::sqrt(discriminant));
 }
 
+// The least damped mode can be any of them, and only all eigenvalues tell.
+double calc_coupled_stable_step(LinearMotion& motion, double limit) {
+  const VecXc lambdas = calc_eigenvalues(motion);
+  if (lambdas.size() == 0) return limit;
+  double exact = std::numeric_limits<double>::infinity();
+  for (const auto& lambda : lambdas) exact = std::min(exact, -2.0 * lambda.real() / std::norm(lambda));
+  return std::max(limit, (1.0 - 1e-6) * exact);
+}
+
 }  // namespace
 
 const IntegratorRow forward_euler_row{"forward_euler",
@@ -41,6 +51,7 @@ const IntegratorRow forward_euler_row{"forward_euler",
                                       [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
                                         return std::make_unique<ForwardEuler>();
                                       },
-                                      {-0.5, -0.5}};
+                                      {-0.5, -0.5},
+                                      calc_coupled_stable_step};
 
 }  // namespace flexcast

@@ -12,6 +12,8 @@
 
 namespace flexcast {
 
+class LinearMotion;
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -53,6 +55,9 @@ struct IntegratorRow {
   double (*calc_stable_step)(double omega, double damping_rate);
   std::unique_ptr<Integrator> (*make)(const System& system, const SolverSettings& settings);
   LeadingError leading_error = {};
+  // s: the same for a body whose damping couples its modes, knowing the smallest limit of pairs (omega, damping_rate)
+  // that its modes can have. Null: that limit is the answer.
+  double (*calc_coupled_stable_step)(LinearMotion& motion, double limit) = nullptr;
 };
 
 std::span<const IntegratorRow> integrators();

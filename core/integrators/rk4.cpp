@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "core/integrators/handle_work.h"
+#include "core/integrators/linear_motion.h"
 #include "core/integrators/particle_passes.h"
 #include "core/integrators/stability.h"
 
@@ -58,6 +59,18 @@ double calc_stable_step(double omega, double c) {
   });
 }
 
+double calc_coupled_stable_step(LinearMotion& motion, double limit) {
+  const VecXc lambdas = calc_eigenvalues(motion);
+  if (lambdas.size() == 0) return limit;
+  double exact = std::numeric_limits<double>::infinity();
+  for (const auto& lambda : lambdas) {
+    const bool real = lambda.imag() == 0.0;
+    exact = std::min(
+        exact, real ? calc_stable_step(0.0, -lambda.real()) : calc_stable_step(std::abs(lambda), -2.0 * lambda.real()));
+  }
+  return std::max(limit, (1.0 - 1e-6) * exact);
+}
+
 }  // namespace
 
 const IntegratorRow rk4_row{
@@ -66,6 +79,8 @@ const IntegratorRow rk4_row{
     4,
     false,
     calc_stable_step,
-    [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<Rk4>(); }};
+    [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<Rk4>(); },
+    {},
+    calc_coupled_stable_step};
 
 }  // namespace flexcast

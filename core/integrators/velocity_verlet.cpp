@@ -1,8 +1,11 @@
 #include "core/integrators/velocity_verlet.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "core/integrators/handle_work.h"
+#include "core/integrators/lanczos.h"
+#include "core/integrators/linear_motion.h"
 #include "core/integrators/particle_passes.h"
 #include "core/integrators/stability.h"
 
@@ -71,6 +74,37 @@ double calc_stable_step(double omega, double c) {
   });
 }
 
+// An eigenvalue of the step reaches -1 where P S w = w has a solution, with d = h D / 2, S = h^2 K / 4 + d and
+// P = 1 - d + d^2 / 2 (x' = -x and w' = -w put into the scheme, w the velocity of the half step).
+double calc_growth(LinearMotion& motion, double h) {
+  VecX once, twice;
+  const auto weigh = [&](const VecX& q, VecX& Sq) {
+    Sq.setZero(q.size());
+    motion.add_stiffness(0.25 * h * h, q, Sq);
+    motion.add_damping(0.5 * h, q, Sq);
+  };
+  const auto apply = [&](const VecX& q, VecX& Pq) {
+    once.setZero(q.size());
+    twice.setZero(q.size());
+    motion.add_damping(0.5 * h, q, once);
+    motion.add_damping(0.5 * h, once, twice);
+    Pq = q - once + 0.5 * twice;
+  };
+  return calc_largest_eigenvalue({motion.size(), weigh, apply});
+}
+
+// P S is symmetric in the product by S, and its largest eigenvalue grows with a power of h between 1 and 3: no step of
+// this search passes the limit.
+double calc_coupled_stable_step(LinearMotion& motion, double h) {
+  for (int i = 0; i < 4; ++i) {
+    const double growth = calc_growth(motion, h);
+    if (!(growth > 0.0)) break;
+    h /= growth > 1.0 ? growth : std::cbrt(growth);
+    if (growth <= 1.0 && growth > 0.97) break;
+  }
+  return h;
+}
+
 }  // namespace
 
 const IntegratorRow velocity_verlet_row{"velocity_verlet",
@@ -81,6 +115,7 @@ const IntegratorRow velocity_verlet_row{"velocity_verlet",
                                         [](const System&, const SolverSettings&) -> std::unique_ptr<Integrator> {
                                           return std::make_unique<VelocityVerlet>();
                                         },
-                                        {-1.0 / 6.0, 1.0 / 12.0}};
+                                        {-1.0 / 6.0, 1.0 / 12.0},
+                                        calc_coupled_stable_step};
 
 }  // namespace flexcast

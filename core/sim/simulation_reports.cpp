@@ -7,8 +7,8 @@
 #include "core/forces/system.h"
 #include "core/integrators/integrator.h"
 #include "core/sim/element_health.h"
-#include "core/sim/largest_mode.h"
 #include "core/sim/simulation.h"
+#include "core/sim/stable_step.h"
 #include "core/sim/state_hash.h"
 
 namespace flexcast {
@@ -106,17 +106,7 @@ double Simulation::calc_stable_step() const {
 double Simulation::find_stable_step(const VecX& positions) const {
   const IntegratorRow& row = *find_integrator(settings_.time.integrator);
   if (row.implicit) return std::numeric_limits<double>::infinity();
-  double limit = std::numeric_limits<double>::infinity();
-  for (const ModeBound& bound : calc_largest_modes(*system_, *model_, positions)) {
-    const double omega = std::sqrt(bound.omega_squared);
-    if (omega == 0.0 && bound.damping_rate == 0.0) continue;
-    constexpr double fastest = 1e150;  // 1/s: squares of more are no numbers
-    if (!(omega < fastest && bound.damping_rate < fastest)) return 0.0;
-    // Damping shortens the step of some schemes and lengthens that of others.
-    limit = std::min({limit, row.calc_stable_step(omega, bound.damping_rate),
-                      row.calc_stable_step(omega, bound.least_damping_rate)});
-  }
-  return limit;
+  return flexcast::calc_stable_step(*system_, *model_, positions, row);
 }
 
 // Of the positions, m: what the substeps of the last step added to it.
