@@ -124,6 +124,7 @@ struct ProbeDescription {
 struct SceneDescription {
   std::string name;
   std::string description;
+  std::string exact;            // one of exact_names(): its solution is known; "": it is not
   Vec3 gravity = Vec3::Zero();  // m/s^2
   Settings settings;
   std::vector<BodyDescription> bodies;

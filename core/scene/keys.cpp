@@ -3,7 +3,7 @@
 namespace flexcast {
 
 std::vector<std::string_view> scene_keys() {
-  return {"name", "description", "gravity", "time", "solver", "body", "contact", "probe", "stream"};
+  return {"name", "description", "gravity", "time", "solver", "body", "contact", "probe", "stream", "exact"};
 }
 
 std::vector<std::string_view> body_keys() {
@@ -14,6 +14,10 @@ std::vector<std::string_view> body_keys() {
 
 std::vector<std::string_view> contact_keys() {
   return {"name", "shape", "friction", "stiffness", "point", "normal", "center", "radius", "lo", "hi"};
+}
+
+std::vector<std::string_view> exact_names() {
+  return {"free_flight", "linear_modes"};
 }
 
 }  // namespace flexcast

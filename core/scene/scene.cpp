@@ -1,6 +1,7 @@
 #include "core/scene/scene.h"
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -42,6 +43,25 @@ void check_start(const Simulation& simulation, const SceneDescription& descripti
   }
 }
 
+bool names_nodes(const Selector& selector) {
+  return std::holds_alternative<NodeSelector>(selector.what);
+}
+
+bool names_nodes(const BodyDescription& body) {
+  const auto any = [](const auto& entries) {
+    return std::any_of(entries.begin(), entries.end(), [](const auto& entry) { return names_nodes(entry.select); });
+  };
+  return any(body.particle_masses) || any(body.pins) || any(body.displacements) || any(body.velocities) ||
+         any(body.forces) || any(body.surface_forces) || any(body.handles);
+}
+
+std::vector<SceneMesh> list_meshes(const SceneDescription& description) {
+  std::vector<SceneMesh> meshes;
+  for (const BodyDescription& body : description.bodies)
+    meshes.push_back({body.name, body.law != nullptr, body.mesh.file, body.mesh.cells, names_nodes(body)});
+  return meshes;
+}
+
 SceneDescription describe(const std::string& text, const std::string& origin,
                           const std::vector<std::string>& overrides) {
   toml::table document = parse(text, origin);
@@ -64,6 +84,8 @@ Scene load(const std::string& text, const std::string& origin, const std::filesy
   Scene scene;
   scene.name = description.name;
   scene.description = description.description;
+  scene.exact = description.exact;
+  scene.meshes = list_meshes(description);
   scene.text = text;
   scene.overrides = overrides;
   scene.files = std::move(built.files);

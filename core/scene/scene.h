@@ -19,9 +19,20 @@ struct SceneAttachment {
   std::string content;
 };
 
+// Where a body's mesh comes from, for those who load the scene again with a finer one.
+struct SceneMesh {
+  std::string body;
+  bool fem = false;                 // tetrahedra, else springs
+  std::string file;                 // as written; "": generated
+  std::vector<std::int64_t> cells;  // of a generated mesh
+  bool names_nodes = false;         // a selector of the body counts on its node numbers
+};
+
 struct Scene {
   std::string name;
   std::string description;
+  std::string exact;                   // name of its exact solution; "": none is known
+  std::vector<SceneMesh> meshes;       // one a body
   std::string text;                    // the scene file, byte for byte
   std::vector<std::string> overrides;  // PATH=VALUE, as given
   std::vector<SceneAttachment> files;

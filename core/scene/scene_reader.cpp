@@ -138,6 +138,7 @@ SceneDescription read_scene(const toml::table& document) {
   SceneDescription description;
   description.name = top.require_name("name");
   description.description = top.text("description").value_or("");
+  description.exact = top.choice("exact", exact_names()).value_or("");
   description.gravity = read_parameter(top, scene, "gravity", description.gravity);
   if (const auto time = top.table("time"))
     description.settings.time =

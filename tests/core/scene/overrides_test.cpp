@@ -127,7 +127,7 @@ TEST(Override, IsNamedByTheErrorsItCauses) {
 
 TEST(Override, OfNothingKnownSuggestsWhatThereIs) {
   EXPECT_EQ(refusal(valid_scene, {"baem.young=5"}),
-            "--set baem.young=5: there is no baem (known: name, description, gravity, time, solver, contact, stream, "
+            "--set baem.young=5: there is no baem (known: name, description, gravity, time, solver, contact, stream, exact, "
             "beam, cloth, tip); did you mean \"beam\"?");
 }
 
