@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "core/lab/options.h"
+#include "core/lab/trade.h"
 
 namespace {
 std::atomic<bool> stop = false;
@@ -39,15 +40,20 @@ int main(int argc, char** argv) {
     limits->progress = terminal;
     return flexcast::limits_verb(*limits, std::cout, std::cerr);
   }
-  if (auto* trade = std::get_if<flexcast::StreamTradeOptions>(&command)) {
-    trade->stop = &stop;
-    trade->progress = terminal;
-    return flexcast::stream_trade_verb(*trade, std::cout, std::cerr);
+  if (auto* stream = std::get_if<flexcast::StreamTradeOptions>(&command)) {
+    stream->stop = &stop;
+    stream->progress = terminal;
+    return flexcast::stream_trade_verb(*stream, std::cout, std::cerr);
   }
   if (auto* cost = std::get_if<flexcast::SceneCostOptions>(&command)) {
     cost->stop = &stop;
     cost->progress = terminal;
     return flexcast::scene_cost_verb(*cost, std::cout, std::cerr);
+  }
+  if (auto* trade = std::get_if<flexcast::TradeOptions>(&command)) {
+    trade->stop = &stop;
+    trade->progress = terminal;
+    return flexcast::trade_verb(*trade, std::cout, std::cerr);
   }
   auto& options = std::get<flexcast::RunOptions>(command);
   options.stop = &stop;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/integrators/integrator.h"
+
 namespace flexcast {
 namespace {
 
@@ -130,20 +132,6 @@ void add_scene_cost(CLI::App& app, SceneCostOptions& options) {
   cost->add_flag("--json", options.json, "Print JSON");
 }
 
-void add_trade(CLI::App& app, StreamTradeOptions& options) {
-  CLI::App* trade = app.add_subcommand("trade", "Print what a scene's stream costs and loses in each of its formats.");
-  trade->footer("Example:\n  flexcast-lab trade server/scenes/cantilever.toml --stream --until 1 -o formats");
-  trade->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  trade->add_flag("--stream")->description("Bytes against errors of the formats of the stream")->required();
-  trade->add_option("--until", options.until, "Simulated time, s; default: the scene's duration, or 1000 steps")
-      ->type_name("T")
-      ->check(check_time);
-  trade->add_option("-o,--output", options.directory, "Folder for stream.csv and stream.json")->type_name("DIR");
-  add_threads(*trade, options.threads);
-  add_overrides(*trade, options.overrides);
-  trade->add_flag("--json", options.json, "Print JSON");
-}
-
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Run a scene and print the report of its last step and its probes.");
   run->footer(footer);
@@ -164,6 +152,82 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--json", options.json, "Print the report as JSON");
 }
 
+// A list of numbers separated by commas, each within the range.
+template <class Option>
+void make_list(Option* option, const char* type, double lo, double hi, const char* expected) {
+  option->type_name(type)->delimiter(',')->allow_extra_args(false)->check([=](const std::string& text) {
+    double value = 0.0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= lo && value <= hi;
+    return good ? "" : option->get_name() + " " + text + ": expected " + expected;
+  });
+}
+
+void add_sweep(CLI::App& trade, TradeOptions& options) {
+  std::vector<std::string> names;
+  for (const IntegratorRow& row : integrators()) names.emplace_back(row.name);
+  trade.add_option("--integrators", options.integrators, "Integrators, default: all but quasi_static")
+      ->type_name("A,B")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names));
+  make_list(trade.add_option("--dt", options.steps, "Steps of the integrator, s; default: halved while there is time"),
+            "H1,H2", 1e-300, 1e300, "a number > 0, s");
+  make_list(trade.add_option("--iterations", options.iterations,
+                             "Sweeps of xpbd and vbd; 1 also: one Newton iteration of implicit schemes"),
+            "N1,N2", 1, 1e6, "a whole number, 1 to 1000000");
+  make_list(
+      trade.add_option("--tolerances", options.tolerances, "Values of the contract time.tolerance, to be run too"),
+      "E1,E2", 1e-300, 1e300, "a number > 0");
+  trade.add_option("--elements", options.elements, "tet4, tet10 or both; default: the scene's")
+      ->type_name("E1,E2")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"tet4", "tet10"}));
+  make_list(trade.add_option("--refine", options.refinements, "Multiply the cells of generated meshes by 2^R"), "R1,R2",
+            0, 6, "a whole number, 0 to 6");
+}
+
+void add_trade(CLI::App& app, TradeOptions& options, bool& stream) {
+  CLI::App* trade = app.add_subcommand(
+      "trade", "Measure accuracy against time: run a scene with many settings and compare each with a reference.");
+  trade->footer(
+      "Example:\n  flexcast-lab trade server/scenes/cantilever.toml -o beam --until 1 --integrators "
+      "rk4,backward_euler");
+  trade->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  trade->add_option("-o,--output", options.folder, "Folder for trade.csv, trade.json, trade.svg and order.svg")
+      ->type_name("DIR");
+  make_list(trade->add_option("--until", options.until, "Simulated time, s; default: the scene's duration, or 1"), "T",
+            1e-300, 1e300, "a number > 0, s");
+  add_sweep(*trade, options);
+  make_list(trade->add_option("--budget", options.budget, "Time the whole study may take, s, default 60"), "SECONDS",
+            1e-3, 1e9, "a number, 0.001 to 1e9, s");
+  make_list(trade->add_option("--repeats", options.repeats, "Runs of each setting; default: as the budget allows"), "N",
+            1, 1000, "a whole number, 1 to 1000");
+  add_threads(*trade, options.threads);
+  add_overrides(*trade, options.overrides);
+  trade->add_flag("--json", options.json, "Print JSON");
+  CLI::Option* flag = trade->add_flag("--stream", stream,
+                                      "Instead: bytes against errors of the formats of the stream; -o DIR, when given, "
+                                      "gets stream.csv and stream.json");
+  for (const char* name :
+       {"--integrators", "--dt", "--iterations", "--tolerances", "--elements", "--refine", "--budget", "--repeats"})
+    flag->excludes(trade->get_option(name));
+  trade->callback([&options, &stream] {
+    if (!stream && options.folder.empty()) throw CLI::RequiredError("--output");
+  });
+}
+
+StreamTradeOptions make_stream_options(const TradeOptions& trade) {
+  StreamTradeOptions options;
+  options.scene = trade.scene;
+  options.until = trade.until;
+  options.overrides = trade.overrides;
+  if (!trade.folder.empty()) options.directory = trade.folder;
+  options.threads = trade.threads;
+  options.json = trade.json;
+  return options;
+}
+
 }  // namespace
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
@@ -174,7 +238,8 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   RunOptions run;
   ModesOptions modes;
   BenchOptions bench;
-  StreamTradeOptions trade;
+  TradeOptions trade;
+  bool stream = false;
   SceneCostOptions cost;
   add_run(app, run);
   add_modes(app, modes);
@@ -183,7 +248,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   add_plot(app, plot);
   LimitsOptions limits;
   add_limits(app, limits);
-  add_trade(app, trade);
+  add_trade(app, trade, stream);
   add_scene_cost(app, cost);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -196,6 +261,7 @@ LabCommand parse_lab_command(const std::vector<std::string>& arguments) {
   if (app.got_subcommand("bench")) return bench;
   if (app.got_subcommand("plot")) return plot;
   if (app.got_subcommand("limits")) return limits;
+  if (app.got_subcommand("trade") && stream) return make_stream_options(trade);
   if (app.got_subcommand("trade")) return trade;
   if (app.got_subcommand("scene-cost")) return cost;
   return run;

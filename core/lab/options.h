@@ -12,6 +12,7 @@
 #include "core/lab/run.h"
 #include "core/lab/scene_cost.h"
 #include "core/lab/stream_trade.h"
+#include "core/lab/trade_options.h"
 
 namespace flexcast {
 
@@ -23,7 +24,7 @@ struct CommandLineEnd {
 
 // One alternative a verb.
 using LabCommand = std::variant<CommandLineEnd, RunOptions, ModesOptions, BenchOptions, PlotOptions, LimitsOptions,
-                                StreamTradeOptions, SceneCostOptions>;
+                                TradeOptions, StreamTradeOptions, SceneCostOptions>;
 
 LabCommand parse_lab_command(const std::vector<std::string>& arguments);
 
