@@ -47,14 +47,15 @@ void note_meshes(Trade& trade) {
 }
 
 void note_motion(Trade& trade) {
-  char text[160];
+  char text[320];
   if (trade.motion == 0.0) {
     trade.notes.emplace_back("nothing moves: errors have no size to be compared with");
   } else if (trade.own_error() > trade_levels.back()) {
     std::snprintf(
         text, sizeof text,
-        "the reference's own error is %.2g %% of the motion: what is within three times of it is not told apart",
-        100.0 * trade.own_error());
+        "the reference's own error is %.2g %% of the motion: what is within three times of it is not told apart; "
+        "its two finest runs agree to 0.03 %% until t = %.3g s: shorten --until to that, or raise --budget",
+        100.0 * trade.own_error(), trade.reference.agreed_until);
     trade.notes.emplace_back(text);
   }
 }
@@ -78,6 +79,16 @@ Result<TradeReference> make_reference(const Scene& base, const TradeRunner& runn
   return make_converged_reference(runner, settings);
 }
 
+// What a contract may be the loader says, before anything is measured.
+Result<void> check_contracts(const TradeOptions& options) {
+  for (const double tolerance : options.tolerances) {
+    std::vector<std::string> overrides = options.overrides;
+    overrides.push_back("time.tolerance=" + to_text(ParameterValue(tolerance)));
+    if (const auto scene = load_scene(options.scene, overrides); !scene) return scene.error();
+  }
+  return {};
+}
+
 Result<void> measure(const TradeOptions& options, const Scene& base, const TradeBudget& budget, TradeProgress& progress,
                      Trade& trade) {
   const TradeRunner runner(options, trade.meshes, trade.times, budget);
@@ -85,6 +96,7 @@ Result<void> measure(const TradeOptions& options, const Scene& base, const Trade
   if (!reference) return reference.error();
   trade.reference = std::move(reference).value();
   trade.motion = calc_motion(trade.reference.frames);
+  trade.has_volumes = !trade.reference.frames.start.volumes.isZero(0.0);
   auto groups = make_trade_groups(options, base, trade.meshes.all);
   if (!groups) return groups.error();
   trade.groups = std::move(groups).value();
@@ -104,6 +116,7 @@ Result<Trade> trade_scene(const TradeOptions& options, TradeClock& clock, std::o
   const double processor = clock.processor();
   const auto base = load_scene(options.scene, options.overrides);
   if (!base) return base.error();
+  if (auto good = check_contracts(options); !good) return good.error();
   Trade trade;
   trade.scene = base.value().name;
   trade.threads = options.threads;

@@ -18,6 +18,7 @@ struct Trade {
   TradeMeshes meshes;
   double size = 0.0;         // m, diagonal of the box around all rest positions
   double motion = 0.0;       // m, largest RMS displacement of the reference from its start
+  bool has_volumes = false;  // there are tetrahedra
   TradeReference reference;  // without its frames
   std::vector<TradeGroup> groups;
   std::vector<TradeResult> results;                  // in the order of the groups, steps falling

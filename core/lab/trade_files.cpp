@@ -31,8 +31,9 @@ std::string make_csv_head(const Trade& trade) {
 std::string make_csv_errors(const TradeResult& result, const Trade& trade) {
   const TradeErrors& errors = result.errors;
   std::string text;
-  for (const double value : {result.cost, result.error, errors.rms / trade.size, errors.rms_end, errors.rms,
-                             errors.largest_end, errors.largest, errors.energy, errors.volume})
+  for (const double value :
+       {result.cost, result.error, errors.rms / trade.size, errors.rms_end, errors.rms, errors.largest_end,
+        errors.largest, errors.energy, trade.has_volumes ? errors.volume : std::nan("")})
     text += "," + (result.status == TradeResult::Status::done ? field(value) : "");
   return text;
 }

@@ -33,7 +33,7 @@ Json make_errors(const TradeResult& result, const Trade& trade) {
           {"particle_largest", number(errors.largest)},
           {"probes", probes},
           {"energy", number(errors.energy)},
-          {"volume", number(errors.volume)}};
+          {"volume", trade.has_volumes ? number(errors.volume) : Json(nullptr)}};
 }
 
 Json make_setting_json(const TradeResult& result, const Trade& trade) {
@@ -75,6 +75,7 @@ Json make_reference_json(const Trade& trade) {
           {"error_of_motion", number(trade.own_error())},
           {"error_of_scene", number(reference.error / trade.size)},
           {"order", reference.order ? number(*reference.order) : Json(nullptr)},
+          {"agreed_until", reference.exact.empty() ? number(reference.agreed_until) : Json(nullptr)},
           {"levels", levels}};
 }
 

@@ -12,6 +12,7 @@ namespace flexcast {
 namespace {
 
 constexpr double least_order = 0.5;
+constexpr double agreement = 3e-4;  // of the motion: a third of the least level
 
 // A scheme for a reference and the number of its steps a frame to begin with.
 struct Candidate {
@@ -138,6 +139,8 @@ class Halving {
       const std::optional<double> before = reference_.levels.back().difference;
       const double floor = 1e-15 * settings_.size;
       reference_.error = std::max(calc_own_error(*level.difference, before, candidate_.row->order), floor);
+      reference_.agreed_until =
+          calc_agreed_until(frames_, reference_.frames, runner_.times(), agreement * calc_motion(frames_));
       if (before && *level.difference > 0.0) reference_.order = std::log2(*before / *level.difference);
     }
     reference_.levels.push_back(level);
@@ -169,6 +172,15 @@ class Halving {
 };
 
 }  // namespace
+
+double calc_agreed_until(const TradeFrames& a, const TradeFrames& b, const TradeTimes& times, double distance) {
+  double until = 0.0;
+  for (std::size_t i = 0; i < a.at.size(); ++i) {
+    if (calc_rms(a.at[i].positions - b.at[i].positions) > distance) break;
+    until = static_cast<double>(times.compared[i]) * times.frame;
+  }
+  return until;
+}
 
 double calc_own_error(double difference, std::optional<double> before, int order) {
   // One pair shows no order: the least that a scheme can have is assumed.

@@ -23,6 +23,7 @@ struct TradeReference {
   std::string label;                   // them, or the exact solution, in words
   double error = 0.0;                  // m, its own: largest RMS over the times
   std::optional<double> order;         // observed
+  double agreed_until = 0.0;           // s, the time to which the two finest runs agree; see calc_agreed_until
   std::vector<ReferenceLevel> levels;
   TradeFrames frames;
 };
@@ -41,6 +42,10 @@ Result<TradeReference> make_exact_reference(const std::string& name, const Trade
 // last difference and the order that the last two show, never a better order than the scheme's. Errors: two runs do not
 // fit the share; every run fails.
 Result<TradeReference> make_converged_reference(const TradeRunner& runner, const ReferenceSettings& settings);
+
+// s: the last of the times before two motions are farther apart than `distance` (m); 0: none is. A motion that is
+// chaotic can be known until then, and no longer at any price.
+double calc_agreed_until(const TradeFrames& a, const TradeFrames& b, const TradeTimes& times, double distance);
 
 // m, of the finer of two runs whose steps differ by two; `before`: the difference of the pair before.
 double calc_own_error(double difference, std::optional<double> before, int order);

@@ -21,6 +21,7 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
 
 // A fraction in percent, two digits.
 std::string percent_text(double fraction) {
+  if (fraction > 10.0) return "> 1000 %";
   return format(fraction != 0.0 && fraction < 1e-5 ? "%.1e %%" : "%.2g %%", 100.0 * fraction);
 }
 
@@ -38,7 +39,8 @@ std::string make_row(const TradeResult& result, const Trade& trade, std::size_t 
   const TradeErrors& errors = result.errors;
   row += format(" %10.3g %10s %10s %10.2g %10.2g", result.cost, percent_text(result.error).c_str(),
                 percent_text(errors.rms / trade.size).c_str(), errors.largest, errors.energy);
-  return row + format(" %10.2g %5zu\n", errors.volume, result.samples.size());
+  row += trade.has_volumes ? format(" %10.2g", errors.volume) : format(" %10s", "-");
+  return row + format(" %5zu\n", result.samples.size());
 }
 
 std::string make_group_line(const Trade& trade, std::size_t group) {

@@ -66,6 +66,15 @@ TEST_F(TradeReferenceCase, WithContactsIsImplicit) {
   EXPECT_NE(reference.value().label.find("time.integrator=bdf2"), std::string::npos);
 }
 
+TEST(TradeAgreement, EndsWhereTwoMotionsPart) {
+  const TradeTimes times{0.5, {1, 2, 4}};
+  const auto at = [](double x) { return TradeFrame{VecX::Constant(3, x), VecX()}; };
+  const TradeFrames still{at(0.0), {at(0.0), at(0.0), at(0.0)}}, parting{at(0.0), {at(1e-3), at(0.1), at(1e-3)}};
+  EXPECT_DOUBLE_EQ(calc_agreed_until(still, still, times, 0.01), 2.0);
+  EXPECT_DOUBLE_EQ(calc_agreed_until(still, parting, times, 0.01), 0.5);
+  EXPECT_DOUBLE_EQ(calc_agreed_until(still, parting, times, 1e-4), 0.0);
+}
+
 TEST(TradeOwnError, TrustsNoOrderButTheOneObserved) {
   EXPECT_DOUBLE_EQ(calc_own_error(0.1, std::nullopt, 4), 0.1);  // first order, to be careful
   EXPECT_DOUBLE_EQ(calc_own_error(0.1, 0.4, 4), 0.1 / 3.0);     // 2 observed

@@ -199,6 +199,14 @@ TEST_F(TradeStudy, OfASceneThatIsNotAsExactAsItSaysIsRefused) {
   EXPECT_TRUE(refusal().starts_with("exact = \"free_flight\" does not hold: particles are pinned"));
 }
 
+// Whatever the loader says of the contract, it says it before anything is run.
+TEST_F(TradeStudy, OfAContractThatTheLoaderRefusesRunsNothing) {
+  write(oscillator_scene);
+  options_.tolerances = {-1.0};
+  EXPECT_NE(refusal().find("--set time.tolerance=-1"), std::string::npos) << refusal();
+  EXPECT_EQ(clock_.steps(), 0);
+}
+
 TEST_F(TradeStudy, EndsWhenAskedTo) {
   write(oscillator_scene);
   const std::atomic<bool> stop = true;
