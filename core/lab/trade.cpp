@@ -71,6 +71,16 @@ void note_waiting(double processor, Trade& trade) {
   trade.notes.emplace_back(text);
 }
 
+// A scene so large that there is no time for anything once it has been loaded.
+Result<void> check_time_left(const TradeBudget& budget) {
+  if (budget.left() > 0.0) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "nothing fits into the budget of %g s: loading the scene has taken %.3g s; raise --budget",
+                budget.seconds(), budget.spent());
+  return Error{text};
+}
+
 Result<TradeReference> make_reference(const Scene& base, const TradeRunner& runner, double size,
                                       TradeProgress& progress) {
   if (!base.exact.empty()) return make_exact_reference(base.exact, runner);
@@ -124,9 +134,11 @@ Result<Trade> trade_scene(const TradeOptions& options, TradeClock& clock, std::o
   trade.notes = base.value().notes;
   trade.size = System(base.value().simulation->model()).size();
   note_springs(options, base.value(), trade.notes);
+  if (auto in_time = check_time_left(budget); !in_time) return in_time.error();
   auto meshes = make_trade_meshes(options, base.value());
   if (!meshes) return meshes.error();
   trade.meshes = std::move(meshes).value();
+  if (auto in_time = check_time_left(budget); !in_time) return in_time.error();
   auto times = make_times(options, base.value(), trade.meshes.all.front().compared.size());
   if (!times) return times.error();
   trade.times = std::move(times).value();

@@ -60,6 +60,13 @@ double predict_seconds(const Candidate& candidate, const TradeTimes& times) {
 
 Error make_too_long(const TradeRunner& runner, double seconds, double share) {
   char text[400];
+  if (share <= 0.0) {
+    std::snprintf(text, sizeof text,
+                  "nothing fits into the budget of %g s: loading the scene and a first step have taken %.3g s; raise "
+                  "--budget",
+                  runner.budget().seconds(), runner.budget().spent());
+    return {text};
+  }
   std::snprintf(text, sizeof text,
                 "nothing fits into the budget of %g s: two runs of the cheapest reference take about %.3g s, of which "
                 "%.3g s are left for them; raise --budget or shorten --until (now %g s)",
@@ -75,6 +82,7 @@ Result<Candidate> choose_candidate(const TradeRunner& runner, double share) {
   std::vector<Candidate> candidates;
   double least = std::numeric_limits<double>::infinity();
   for (const char* name : list_schemes(loaded.value()->model())) {
+    if (share <= 0.0) break;
     const double begun = runner.budget().spent();
     auto candidate = make_candidate(name, runner, share);
     if (!candidate) return candidate.error();
@@ -83,7 +91,6 @@ Result<Candidate> choose_candidate(const TradeRunner& runner, double share) {
     if (7.0 * seconds <= share) return candidate;
     least = std::min(least, 3.0 * seconds);
     candidates.push_back(candidate.value());
-    if (share <= 0.0) break;
   }
   for (const Candidate& candidate : candidates) {
     if (3.0 * predict_seconds(candidate, runner.times()) <= share) return candidate;
