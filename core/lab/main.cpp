@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "core/lab/options.h"
-#include "core/lab/trade.h"
+#include "core/lab/trade/trade.h"
 
 namespace {
 std::atomic<bool> stop = false;

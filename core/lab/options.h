@@ -5,14 +5,14 @@
 #include <variant>
 #include <vector>
 
-#include "core/lab/bench.h"
-#include "core/lab/limits.h"
+#include "core/lab/bench/bench.h"
+#include "core/lab/cost/scene_cost.h"
+#include "core/lab/limits/limits.h"
 #include "core/lab/modes.h"
-#include "core/lab/plot_verb.h"
+#include "core/lab/plot/plot_verb.h"
 #include "core/lab/run.h"
-#include "core/lab/scene_cost.h"
-#include "core/lab/stream_trade.h"
-#include "core/lab/trade_options.h"
+#include "core/lab/stream/stream_trade.h"
+#include "core/lab/trade/trade_options.h"
 
 namespace flexcast {
 

@@ -22,8 +22,8 @@ struct TimeSettings {
 
 // The engine does not publish; it carries these for those who do.
 struct StreamSettings {
-  std::vector<std::string> fields = {"positions"};  // "positions", "velocities"
-  std::string precision = "float32";                // float32 | float64
+  std::vector<std::string> fields = {"positions"};  // "positions", "velocities", "stretch", "stress"
+  std::string precision = "float32";                // float32 | float64 | quantized16
   int every = 1;                                    // publish every n-th step
 };
 

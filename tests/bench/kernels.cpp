@@ -1,7 +1,7 @@
 // Forces, tangents and solves; items are elements.
 #include <benchmark/benchmark.h>
 
-#include "core/lab/bench_kernels.h"
+#include "core/lab/bench/bench_kernels.h"
 #include "tests/bench/microbench.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/variants.h"

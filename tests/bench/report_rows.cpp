@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "core/base/parallel.h"
-#include "core/lab/bench_kernels.h"
-#include "core/lab/bench_steps.h"
+#include "core/lab/bench/bench_kernels.h"
+#include "core/lab/bench/bench_steps.h"
 #include "tests/bench/instruction_sets.h"
 
 namespace flexcast::bench {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lab/bench_timing.h"
+#include "core/lab/bench/bench_timing.h"
 #include "tests/bench/scenes.h"
 
 namespace flexcast::bench {

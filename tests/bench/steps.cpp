@@ -1,7 +1,7 @@
 // Steps from the start of a scene; items are elements.
 #include <benchmark/benchmark.h>
 
-#include "core/lab/bench_loops.h"
+#include "core/lab/bench/bench_loops.h"
 #include "tests/bench/microbench.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/variants.h"

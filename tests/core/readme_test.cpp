@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/integrators/integrator.h"
-#include "core/lab/bench_report.h"
+#include "core/lab/bench/bench_report.h"
 #include "core/materials/law.h"
 #include "core/scene/keys.h"
 #include "core/sim/parameters.h"
