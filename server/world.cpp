@@ -72,6 +72,7 @@ void World::note_choice(const Moment& from) {
     values.push_back({"solver.iterations", std::int64_t{choice.iterations}});
   }
   chronicle_.note_choice(from, std::move(text), std::move(values));
+  if (choice.substeps >= ToleranceControl::most_substeps) note_new_warnings();
 }
 
 void World::fail() {

@@ -187,7 +187,8 @@ Result<void> Simulation::check_assigned(std::span<const ParameterAssignment> ass
     return Error{text + " gives " + what + " in double precision"};
   };
   if (!is_usable(model_->masses)) return refuse("particles a mass that is not > 0 and finite");
-  if (!std::isfinite(system_->calc_potential(state_.positions))) return refuse("energies that are not finite");
+  const double energy = system_->calc_potential(state_.positions) + system_->calc_kinetic(state_.velocities);
+  if (!std::isfinite(energy)) return refuse("energies that are not finite");
   return {};
 }
 

@@ -135,6 +135,8 @@ class Simulation {
   ToleranceControl tolerance_;
   VelocityTrack track_;
   bool tracks_ = false;
+  double contract_time_ = 0.0;  // s, where the contract began,
+  VecX contract_velocities_;    // and the velocities there; empty without time.tolerance
   // The error of an integrator step by half steps, and what takes these.
   struct StepError {
     double position = 0.0, velocity = 0.0;  // RMS over the particles, m and m/s

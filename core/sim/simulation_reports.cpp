@@ -132,6 +132,11 @@ std::vector<std::string> Simulation::calc_warnings() const {
                   settings_.time.integrator.c_str(), h, limit, limit / h);
     warnings.emplace_back(text);
   }
+  if (has_tolerance() && choice_.substeps >= ToleranceControl::most_substeps) {
+    warnings.push_back("time.tolerance = " + to_text(settings_.time.tolerance) +
+                       " cannot be kept: it wants more than " + std::to_string(ToleranceControl::most_substeps) +
+                       " substeps");
+  }
   for (const Body& body : model_->bodies) {
     if (body.is_fem() && !body.is_quadratic() && body.poisson >= 0.45) {
       warnings.push_back(body.name + ": linear tetrahedra lock towards poisson = 0.5 (now " + to_text(body.poisson) +

@@ -86,8 +86,8 @@ JudgedStep Simulation::make_judged_step() const {
   const TimeSettings& time = settings_.time;
   JudgedStep step{*find_integrator(time.integrator),
                   time.step,
-                  before_.time + time.step - initial_.time,
-                  calc_rms(state_.velocities - initial_.velocities),
+                  before_.time + time.step - contract_time_,
+                  calc_rms(state_.velocities - contract_velocities_),
                   time.tolerance * system_->size(),
                   track_.calc_derivatives(),
                   {}};
@@ -160,19 +160,22 @@ void Simulation::follow_contract(const TimeSettings& old) {
 VecX Simulation::save_contract() const {
   if (!has_contract()) return {};
   const VecX control = tolerance_.save(), track = track_.save();
-  VecX saved(2 + control.size() + track.size());
-  saved << choice_.substeps, choice_.iterations, control, track;
+  VecX saved(3 + control.size() + contract_velocities_.size() + track.size());
+  saved << choice_.substeps, choice_.iterations, contract_time_, control, contract_velocities_, track;
   return saved;
 }
 
 bool Simulation::restore_contract(const VecX& saved) {
-  constexpr Eigen::Index head = 2 + ToleranceControl::saved_size;
-  if (!has_contract() || saved.size() < head) return false;
+  const Eigen::Index dofs = has_tolerance() ? state_.velocities.size() : 0;
+  const Eigen::Index head = 3 + ToleranceControl::saved_size;
+  if (!has_contract() || saved.size() < head + dofs || !saved.allFinite()) return false;
   const auto is_count = [](double value) { return value >= 0.0 && value <= 1e6 && value == std::floor(value); };
   if (!is_count(saved[0]) || saved[0] == 0.0 || !is_count(saved[1])) return false;
   restart_contract();
-  if (!tolerance_.restore(saved.segment(2, ToleranceControl::saved_size))) return false;
-  if (!track_.restore(saved.tail(saved.size() - head), state_.velocities.size())) return false;
+  if (!tolerance_.restore(saved.segment(3, ToleranceControl::saved_size))) return false;
+  if (!track_.restore(saved.tail(saved.size() - head - dofs), state_.velocities.size())) return false;
+  contract_time_ = saved[2];
+  contract_velocities_ = saved.segment(head, dofs);
   choice_ = {static_cast<int>(saved[0]), static_cast<int>(saved[1])};
   integrator_->limit_iterations(choice_.iterations);
   return true;
@@ -181,6 +184,9 @@ bool Simulation::restore_contract(const VecX& saved) {
 // After the contract, the scheme or anything else that the choices rest on has changed.
 void Simulation::restart_contract() {
   track_.begin(state_.time, state_.velocities);
+  contract_time_ = state_.time;
+  contract_velocities_.resize(0);
+  if (has_tolerance()) contract_velocities_ = state_.velocities;
   measured_.reset();
   tracks_ = has_tolerance() || find_integrator(settings_.time.integrator)->leading_error.is_known();
   const double limit = has_contract() ? find_stable_step(state_.positions) : 0.0;

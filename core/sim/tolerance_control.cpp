@@ -11,8 +11,9 @@ constexpr double stability_share = 0.95;  // of the stable step
 constexpr double refused = 1.3;           // needs so many times the substeps: taken again
 constexpr double most_growth = 8.0;       // at once
 constexpr double forgotten = 0.8;         // of the envelope, a step
-constexpr int most_retries = 6;
-constexpr int most_substeps = 1'000'000;
+constexpr double kink = 1.5;              // times as many substeps wanted after a refinement
+constexpr int most_retries = 5;
+constexpr int most_substeps = ToleranceControl::most_substeps;
 constexpr int first_substeps = 3;  // with their start they give every derivative that is asked for
 
 int to_substeps(double value) {
@@ -58,27 +59,32 @@ double ToleranceControl::calc_need(const JudgedStep& step) {
   return std::max(std::pow(*rate / allowed, 1.0 / (phase > 0.0 ? p : 2)), std::pow(passing / allowed, 1.0 / p));
 }
 
+// Refining smooth motion leaves the substeps that are wanted as they are. Where they grow with it the motion has a
+// kink, and no number of them would do.
 bool ToleranceControl::accept(const JudgedStep& step) {
   const double need = calc_need(step);
-  if (!(need <= refused) && retries_ < most_retries && substeps_ < most_substeps) {
+  const bool kinked = retries_ > 0 && !(need * substeps_ <= kink * wanted_);
+  wanted_ = need * substeps_;
+  if (!(need <= refused) && !kinked && retries_ < most_retries && substeps_ < most_substeps) {
     ++retries_;
     substeps_ = std::max(to_substeps(substeps_ * std::min(1.05 * need, most_growth)), first_substeps);
     envelope_ = substeps_;
     return false;
   }
   retries_ = 0;
-  envelope_ = std::max(substeps_ * std::min(need, most_growth), forgotten * envelope_);
-  const int wanted = std::max(least_, to_substeps(envelope_));
-  if (wanted > substeps_) {
-    substeps_ = wanted;
-  } else if (wanted < 0.9 * substeps_) {
-    substeps_ = std::max(wanted, static_cast<int>(0.6 * substeps_));
+  envelope_ = kinked ? substeps_ : std::max(std::min(wanted_, most_growth * substeps_), forgotten * envelope_);
+  const int enough = std::max(least_, to_substeps(envelope_));
+  if (enough > substeps_) {
+    substeps_ = enough;
+  } else if (enough < 0.9 * substeps_) {
+    substeps_ = std::max(enough, static_cast<int>(0.6 * substeps_));
   }
   return true;
 }
 
 bool ToleranceControl::retry() {
   if (++retries_ > most_retries || substeps_ >= most_substeps) return false;
+  wanted_ = most_substeps;
   substeps_ = to_substeps(2.0 * substeps_);
   envelope_ = substeps_;
   return true;

@@ -7,9 +7,10 @@
 // term is what the error of the velocities makes of itself in the positions (|d^(p-1) v| / |d^(p+1) v| is one over the
 // square of the frequency), so that the choice does not swing with the motion. And what comes and goes with the motion,
 //   |x - v| / 2 h^p |d^(p-1) (v - v0)|,
-// which is held below what is allowed so far. Symplectic Euler has nothing else to first order: it is the leapfrog seen
-// half a step late. Its phase is the leapfrog's, with p = 2 and c = 1 / 24.
-// Source of the rates: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, Springer 2006, chapters IX, X.
+// which is held below what is allowed so far. Symplectic Euler has nothing else to first order: it is the leapfrog,
+// begun with velocities that are h / 2 a0 too fast. From rest that is what the formula says; of bodies that start by
+// spinning it says too much. Its phase is the leapfrog's, with p = 2 and c = 1 / 24. Source of the rates: E. Hairer, C.
+// Lubich, G. Wanner, Geometric Numerical Integration, Springer 2006, chapters IX, X.
 //
 // A little less than the contract allows is aimed at: errors of nonlinear motion grow by themselves.
 #pragma once
@@ -25,7 +26,7 @@ namespace flexcast {
 struct JudgedStep {
   const IntegratorRow& row;
   double length = 0.0;              // s, of the whole step
-  double elapsed = 0.0;             // s, since the run began
+  double elapsed = 0.0;             // s, since the contract began
   double speed = 0.0;               // m/s, RMS of what the velocities changed since then
   double allowed = 0.0;             // m/s: tolerance times size
   VelocityDerivatives derivatives;  // at its end
@@ -45,6 +46,8 @@ class ToleranceControl {
   // The stable step was looked up again.
   void follow(double length, double stable_step);
 
+  // So many at most; a contract that wants more is not kept.
+  static constexpr int most_substeps = 10'000;
   static constexpr Eigen::Index saved_size = 4;
   VecX save() const;
   bool restore(const VecX& saved);
@@ -54,6 +57,7 @@ class ToleranceControl {
 
   int substeps_ = 1, least_ = 1;
   int retries_ = 0;
+  double wanted_ = 0.0;    // substeps, by the last judgement of this step
   double envelope_ = 0.0;  // substeps: the largest need lately, forgotten by a fifth a step
   double speed_ = 0.0;     // m/s^p, the largest |d^(p-1) (v - v0)| so far
 };

@@ -64,6 +64,11 @@ void try_batch(RandomScene& random, Simulation& simulation, Tally& tally) {
     const bool fits = random.chance(0.8);
     auto value = parse_parameter_value(fits ? random.value_like(descriptor) : random.any_value());
     if (!value) continue;
+    // So do thousands of them for a small error.
+    if (descriptor.name == "time.tolerance" && std::get_if<double>(&value.value())) {
+      double& tolerance = std::get<double>(value.value());
+      if (tolerance > 0.0 && tolerance < 0.05) tolerance = 0.05;
+    }
     batch.push_back({random.chance(0.02) ? "no.such" : descriptor.name, std::move(value).value()});
   }
   if (batch.empty()) return;

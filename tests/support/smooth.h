@@ -54,6 +54,18 @@ inline std::vector<SmoothScene> smooth_scenes() {
        "[[body]]\nname = \"block\"\nmodel = \"fem\"\nmesh = { shape = \"beam\", cells = [2, 2, 2], size = [0.5, 0.5, "
        "0.5] }\nmaterial = { law = \"neo_hookean\", young = 2e4, poisson = 0.3, density = 500.0 }\n"
        "velocity = [ { select = { all = true }, spin = [0, 1.0, 3.0], about = [0.25, 0.25, 0.25] } ]\n"},
+      {"jelly", 0.02, 0.8,
+       "[[body]]\nname = \"jelly\"\nmodel = \"mass_spring\"\nmesh = { shape = \"lattice\", cells = [2, 2, 2], size = "
+       "[0.4, 0.4, 0.4] }\nsprings = { stiffness = 8.0, damping = 0.01 }\nmass = 0.02\npin = [ { select = { box = "
+       "[[-1, "
+       "-1, -1e-9], [1, 1, 1e-9]] } } ]\n",
+       "[3, 0, -9.81]"},
+      {"chain", 0.01, 0.6,
+       "[[body]]\nname = \"chain\"\nmodel = \"mass_spring\"\nmesh = { shape = \"rope\", cells = [12], size = [1.0] }\n"
+       "springs = { stiffness = 3.0, damping = 0.0 }\nmass = 0.02\npin = [ { select = { nodes = [0, 12] } } ]\n"
+       "displacement = [ { select = { nodes = [4, 6] }, value = [0.01, 0, 0] }, { select = { nodes = [5] }, value = "
+       "[0.02, "
+       "0, 0] } ]\n"},
       {"grip", 0.02, 0.8,
        beam +
            "damping = { stiffness = 0.01 }\nhandle = [ { name = \"grip\", select = { box = [[0.999, -1, -1], [1.1, 1, "

@@ -132,12 +132,13 @@ TEST_F(LabRun, WritesARowPerFrameStartingWithTheInitialState) {
   ASSERT_EQ(run(), 0) << log_.str();
   const auto lines = lines_of(*options_.csv);
   ASSERT_EQ(lines.size(), 1u + 4u);
-  EXPECT_EQ(lines[0],
-            "step,time,kinetic,elastic,gravity,contact,work,dissipated,numerical,residual,iterations,inverted,min_j,"
-            "momentum.x,"
-            "momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,angular_momentum.z,bob.x,bob.y,bob.z,bob.vx,"
-            "bob.vy,bob.vz");
-  EXPECT_EQ(lines[1], "0,0,0,0,0,0,0,0,0,0,0,0,,0,0,0,0,0,0,1,0,0,0,0,0");
+  EXPECT_EQ(
+      lines[0],
+      "step,time,kinetic,elastic,gravity,contact,work,dissipated,numerical,residual,iterations,inverted,min_j,substeps,"
+      "error_estimate,momentum.x,"
+      "momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,angular_momentum.z,bob.x,bob.y,bob.z,bob.vx,"
+      "bob.vy,bob.vz");
+  EXPECT_EQ(lines[1], "0,0,0,0,0,0,0,0,0,0,0,0,,0,,0,0,0,0,0,0,1,0,0,0,0,0");
   EXPECT_TRUE(lines[2].starts_with("3,0.003")) << lines[2];
   EXPECT_TRUE(lines[4].starts_with("9,0.0")) << lines[4];
   for (const std::string& line : lines)

@@ -112,14 +112,17 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"UnknownTopKey", "gravity =", "gravty =",
                 "test.toml:2: unknown key gravty = [0.0, 0.0, -9.81] (allowed: name, description, gravity, time, "
-                "solver, body, contact, probe, stream); did you mean \"gravity\"?"},
+                "solver, body, contact, probe, stream, exact); did you mean \"gravity\"?"},
         Refusal{"UnknownTimeKey", "step = 0.001", "dt = 0.001",
-                "test.toml:4: unknown key time.dt = 0.001 (allowed: step, integrator, substeps, duration)"},
-        Refusal{"LaterTimeKey", "step = 0.001", "tolerance = 1e-4",
-                "test.toml:4: unknown key time.tolerance = 1e-04 (allowed: step, integrator, substeps, duration)"},
+                "test.toml:4: unknown key time.dt = 0.001 (allowed: step, integrator, substeps, tolerance, budget, "
+                "error_estimate, duration)"},
+        Refusal{"ToleranceOfOne", "step = 0.001", "tolerance = 1.0",
+                "test.toml:4: time.tolerance = 1.0 is out of range (allowed: >= 0 and < 1, 1/s)"},
+        Refusal{"TwoContracts", "step = 0.001", "tolerance = 1e-3\nbudget = 0.5",
+                "test.toml:5: time.budget = 0.5 excludes time.tolerance = 0.001; one of them must be 0"},
         Refusal{"UnknownTable", "[time]", "[[contacts]]\nname = \"ground\"\n[time]",
                 "test.toml:3: unknown key contacts (allowed: name, description, gravity, time, solver, body, contact, "
-                "probe, stream); did you mean \"contact\"?"},
+                "probe, stream, exact); did you mean \"contact\"?"},
         Refusal{"UnknownMaterialKey", "young = 1e6", "yuong = 1e6",
                 "test.toml:9: [[body]] \"beam\": unknown key material.yuong = 1e+06 (allowed: law, young, poisson, "
                 "density); did you mean \"young\"?"},

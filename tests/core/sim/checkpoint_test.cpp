@@ -247,7 +247,7 @@ TEST(Checkpoint, WithAnyByteFlippedIsRefused) {
 TEST(Checkpoint, OfAnotherVersionIsNamed) {
   std::string bytes = encode_checkpoint(make_running("rk4")->save());
   bytes[8] = 7;
-  EXPECT_EQ(message_of(bytes), "the checkpoint has version 7; this program reads version 1");
+  EXPECT_EQ(message_of(bytes), "the checkpoint has version 7; this program reads version 2");
 }
 
 TEST(Checkpoint, FilesThatAreNoneAreNamed) {

@@ -66,7 +66,7 @@ TEST_P(FreeErrorEstimateOf, IsWithinAFactorOfTwo) {
 INSTANTIATE_TEST_SUITE_P(Schemes, FreeErrorEstimateOf,
                          testing::Values("forward_euler", "symplectic_euler", "velocity_verlet", "backward_euler",
                                          "implicit_midpoint", "bdf2"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& of) { return of.param; });
 
 using DoublingOf = ErrorEstimateOf;
 
@@ -77,7 +77,7 @@ TEST_P(DoublingOf, IsWithinAFactorOfTwo) {
 INSTANTIATE_TEST_SUITE_P(Schemes, DoublingOf,
                          testing::Values("symplectic_euler", "velocity_verlet", "rk4", "backward_euler",
                                          "implicit_midpoint"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& of) { return of.param; });
 
 TEST(ErrorEstimate, IsAbsentWhereItWouldCostAndNobodyAsked) {
   const SmoothScene scene = smooth_scenes()[0];
