@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace flexcast {
@@ -13,6 +14,9 @@ class ModeRegion {
  public:
   // 0 <= d <= most_damping, 0 <= k <= most_omega_squared.
   ModeRegion(double most_damping, double most_omega_squared);
+
+  // What lies between given corners, counterclockwise; two make a straight line.
+  explicit ModeRegion(std::vector<Eigen::Vector2d> corners) : corners_(std::move(corners)) {}
 
   // Keeps what has normal.(d, k) <= offset. Where that would leave nothing, nothing is cut.
   void cut(const Eigen::Vector2d& normal, double offset);

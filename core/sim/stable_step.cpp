@@ -70,7 +70,8 @@ class BodyLimit {
     const DragRange drag = calc_drag_range(system_, body_);
     const double time = calc_damping_time(body_), most = drag.most + time * stiffness;
     if (at_rest && (time > 0.0 || body_.damping == 0.0)) {
-      is_enough_ = drag.most - drag.least <= 1e-12 * drag.most;  // the set is a straight line
+      is_enough_ = drag.most - drag.least <= 1e-9 * most;  // the set is a straight line
+      if (is_enough_) return ModeRegion({{drag.least, 0.0}, {most, stiffness}});
       ModeRegion region(most, stiffness);
       region.cut({1.0, -time}, drag.most);
       region.cut({-1.0, time}, (1e-12 - 1.0) * drag.least);

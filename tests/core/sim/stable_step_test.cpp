@@ -78,6 +78,21 @@ TEST(StableStepLimit, OfASceneStifferThanAnyNumberIsZero) {
   }
 }
 
+// The air hardly damps a rope whose springs damp a thousand times as much: the limit is that without air.
+TEST(StableStepLimit, FeelsLittleOfWhatDampsLittle) {
+  const auto limit = [](std::string_view scheme, double drag) {
+    const auto simulation = make("name = \"rope\"\n" + time_table(scheme, 1e-3) +
+                                 "[[body]]\nname = \"rope\"\nmodel = \"mass_spring\"\nmesh = { shape = \"rope\", cells "
+                                 "= [40], size = [1.0] }\nsprings = { stiffness = 400.0, damping = 0.05 }\n"
+                                 "total_mass = 0.2\npin = [ { select = { nodes = [0] } } ]\n" +
+                                 concat("drag = ", drag, "\n"));
+    return simulation->calc_stable_step();
+  };
+  for (const char* scheme : {"forward_euler", "symplectic_euler", "velocity_verlet", "rk4"}) {
+    EXPECT_NEAR(limit(scheme, 2e-4) / limit(scheme, 0.0), 1.0, 0.002) << scheme;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryScene, StableStep, testing::ValuesIn(cases()),
                          [](const auto& row) { return std::string(row.param.name); });
 
