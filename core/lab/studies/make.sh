@@ -43,15 +43,15 @@ limits limits-cantilever cantilever.toml --budget 60 --vary stiffness,poisson,qu
 
 # One bob on one spring that hangs down.
 bob=(rope.toml --set 'rope.mesh.cells=[1]' --set 'rope.rotation=[0,1.5707963267948966,0]' --set rope.mass=0.1
-  --set end.node=1 --set rope.stiffness=40 --set rope.drag=0 --set rope.damping.mass=0 --until 2 --set time.integrator=rk4
+  --set end.node=1 --set rope.stiffness=40 --set rope.drag=0 --set rope.damping.mass=0 --set time.integrator=rk4
   --set time.substeps=10)
-"$lab" run "${bob[@]}" --set rope.damping=0.2 --csv "$work/both.csv" >/dev/null
-"$lab" run "${bob[@]}" --set rope.damping=0 --csv "$work/elastic.csv" >/dev/null
-"$lab" run "${bob[@]}" --set rope.damping=0.2 --set rope.stiffness=0 --csv "$work/damping.csv" >/dev/null
+"$lab" run "${bob[@]}" --until 0.6 --set rope.damping=2 --csv "$work/both.csv" >/dev/null
+"$lab" run "${bob[@]}" --until 0.6 --set rope.damping=0 --csv "$work/elastic.csv" >/dev/null
+"$lab" run "${bob[@]}" --until 0.6 --set rope.damping=2 --set rope.stiffness=0 --csv "$work/damping.csv" >/dev/null
 "$lab" plot "$work/both.csv" "$work/elastic.csv" "$work/damping.csv" -o "$here/spring-terms.svg" --y end.z \
   --labels 'both terms,k_s alone,k_d alone' --title 'A bob on one spring: height of the bob'
 for damping in 0.05 0.5 4 40; do
-  "$lab" run "${bob[@]}" --set rope.damping=$damping --csv "$work/kd$damping.csv" >/dev/null
+  "$lab" run "${bob[@]}" --until 2 --set rope.damping=$damping --csv "$work/kd$damping.csv" >/dev/null
 done
 "$lab" plot "$work"/kd0.05.csv "$work"/kd0.5.csv "$work"/kd4.csv "$work"/kd40.csv -o "$here/spring-damping.svg" --y end.z \
   --labels 'k_d = 0.05,k_d = 0.5,k_d = 4 (critical),k_d = 40 N.s' --title 'The same bob with more and more damping'
