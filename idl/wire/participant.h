@@ -12,8 +12,9 @@ namespace flexcast::wire {
 inline constexpr int maximum_domain = 230;  // ports run out above
 
 struct ParticipantOptions {
-  int domain = 0;         // 0..230
-  std::string profile{};  // loopback, lan, PATH.xml; "": see profile.h
+  int domain = 0;          // 0..230
+  std::string profile{};   // loopback, lan, PATH.xml; "": see profile.h
+  std::string security{};  // folder with an identity; "": none, in the open
 };
 
 class Domain;

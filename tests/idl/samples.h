@@ -103,6 +103,7 @@ inline void fill(flexcast_Status& status) {
   wire::set_string(wire::resize(status.probes, 1)[0].name, "tip");
   wire::set_string(wire::resize(status.handles, 1)[0].name, "grip");
   wire::set_strings(status.warnings, std::array<std::string, 1>{"too stiff"});
+  wire::copy(status.unpublished, std::array<std::uint64_t, 2>{3, 7});
 }
 
 inline void fill(flexcast_Command& command) {
@@ -138,6 +139,7 @@ inline void fill(flexcast_RecorderInfo& info) {
   wire::set_string(info.recorder_id, "r1");
   info.state = flexcast_RECORDER_FAILED;
   info.next_frame = 100;
+  info.request_id = 6;
   wire::set_string(info.file, "run.mcap");
 }
 

@@ -30,7 +30,11 @@ const Arrows arrows = {
     {"clients/mcap", {}},
     {"clients/client", {"idl/wire"}},
     {"clients/ctl", {"clients/client"}},
-    {"clients/record", {"clients/client", "clients/mcap"}},
+    {"clients/record", {"clients/client", "clients/recording"}},
+    {"clients/recording", {"clients/mcap", "idl/wire"}},
+    {"clients/replay", {"clients/client", "clients/recording"}},
+    {"clients/export", {"clients/client", "clients/recording"}},
+    {"clients/verify", {"clients/recording", "server/convert"}},
     {"server/convert", {"core/lab", "idl/wire"}},
     {"server", {"server/convert"}},
 };
