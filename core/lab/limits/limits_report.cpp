@@ -43,6 +43,13 @@ Extremes find_extremes(const Limits& limits) {
   return found;
 }
 
+std::string make_extremes_text(const Extreme& least, const Extreme& largest) {
+  const std::string from = short_text("%.4f", least.ratio), to = short_text("%.4f", largest.ratio);
+  return "measured over predicted: " +
+         (from == to ? from + " everywhere" : from + " (" + least.where + ") to " + to + " (" + largest.where + ")") +
+         "; at a step 1 % longer than the measured one growth was seen\n";
+}
+
 std::string cell_text(const LimitPoint& point) {
   if (!point.limit.measured) return "no limit";
   if (*point.limit.measured == 0.0) return "never stable";
@@ -155,9 +162,7 @@ std::string make_limits_text(const Limits& limits) {
   text += make_implicit_text(limits);
   const Extremes extremes = find_extremes(limits);
   if (!extremes.least) return text;
-  text += "measured over predicted: from " + short_text("%.4f", extremes.least->ratio) + " (" + extremes.least->where +
-          ") to " + short_text("%.4g", extremes.largest->ratio) + " (" + extremes.largest->where +
-          "), to 1 %: growth was seen at a step that much longer\n";
+  text += make_extremes_text(*extremes.least, *extremes.largest);
   if (extremes.least->ratio < 1.0) text += "The advertised limit is above the true one there: a bug of the engine.\n";
   return text;
 }
