@@ -6,7 +6,7 @@
 namespace flexcast {
 namespace {
 
-constexpr double agreement = 0.3, least_slope = 0.3;
+constexpr double agreement = 0.2, least_slope = 0.3;
 
 double calc_slope(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::log(a[1] / b[1]) / std::log(a[0] / b[0]);
@@ -25,21 +25,15 @@ double fit_slope(const std::vector<std::array<double, 2>>& points, std::size_t f
 }  // namespace
 
 std::optional<ObservedOrder> calc_order(const std::vector<std::array<double, 2>>& points) {
-  std::size_t best_first = 0, best_count = 0, first = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double slope = calc_slope(points[i - 1], points[i]);
-    const bool falls = std::isfinite(slope) && slope >= least_slope;
-    if (!falls) {
-      first = i;
-      continue;
-    }
-    const bool begins = i - first == 1;
-    if (!begins && std::abs(slope - calc_slope(points[i - 2], points[i - 1])) > agreement) first = i - 1;
-    const std::size_t count = i - first + 1;
-    if (count >= 3 && count >= best_count) best_first = first, best_count = count;
+  for (std::size_t last = points.size(); last-- > 2;) {
+    const double finest = calc_slope(points[last - 1], points[last]);
+    if (!std::isfinite(finest) || finest < least_slope) continue;
+    std::size_t first = last - 1;
+    while (first > 0 && std::abs(calc_slope(points[first - 1], points[first]) - finest) <= agreement) --first;
+    const std::size_t count = last - first + 1;
+    if (count >= 3) return ObservedOrder{fit_slope(points, first, count), static_cast<int>(count)};
   }
-  if (best_count == 0) return std::nullopt;
-  return ObservedOrder{fit_slope(points, best_first, best_count), static_cast<int>(best_count)};
+  return std::nullopt;
 }
 
 std::optional<ObservedOrder> calc_order(const std::vector<TradeResult>& results, std::size_t group) {

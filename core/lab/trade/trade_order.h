@@ -14,9 +14,9 @@ struct ObservedOrder {
   int settings = 0;  // that show it
 };
 
-// The slope of log(error) over log(h) by least squares, over the longest run of neighbours whose slopes from one to the
-// next differ by at most 0.3; the finer of two runs of one length. Points fall in h. Nothing for fewer than three
-// points in such a run, or where finer steps gain nothing.
+// The slope of log(error) over log(h) by least squares, over the finest run of neighbours whose slopes from one to the
+// next are within 0.2 of the finest one's: an order is what remains as h goes to zero. Points fall in h. Nothing where
+// no three points make such a run, or where finer steps gain nothing.
 std::optional<ObservedOrder> calc_order(const std::vector<std::array<double, 2>>& points);
 
 // Of what is done, more accurate than 20 % of the motion and not at the reference's limit.

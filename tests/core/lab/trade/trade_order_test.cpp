@@ -38,6 +38,16 @@ TEST(TradeOrder, LeavesOutWhatIsNotYetOrNoLongerAsymptotic) {
   EXPECT_LE(observed->settings, 5);
 }
 
+TEST(TradeOrder, IsThatOfTheFinestSettingsNotOfTheMost) {
+  Points points;
+  for (int i = 0; i < 5; ++i) points.push_back({std::exp2(-i), std::exp2(-i)});  // first order while coarse
+  for (int i = 5; i < 8; ++i) points.push_back({std::exp2(-i), std::exp2(-4 - 2 * (i - 4))});  // then second
+  const auto observed = calc_order(points);
+  ASSERT_TRUE(observed);
+  EXPECT_NEAR(observed->order, 2.0, 1e-12);
+  EXPECT_EQ(observed->settings, 4);
+}
+
 TEST(TradeOrder, NeedsThreeSettingsThatAgree) {
   EXPECT_FALSE(calc_order(Points{}));
   EXPECT_FALSE(calc_order(make_points(2.0, 2)));
