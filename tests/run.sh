@@ -1,7 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything twice (as released, and with address and undefined-behaviour sanitizers)
-# and runs all tests. The last lines are ctest's own summary.
+# and runs all tests. The last lines are ctest's own summary. With --long the proofs that need minutes run for as long as
+# they are meant to: streams for a minute, hundreds of kills.
 set -euo pipefail
+case "$*" in
+  "") ;;
+  --long) export FLEXCAST_LONG=1 ;;
+  *) echo "usage: tests/run.sh [--long]" >&2; exit 2 ;;
+esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source server/setup.sh
 
