@@ -63,6 +63,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--world", options.world, "name on the network; default: the scene's name")->check(check_world);
   app.add_option("--domain", options.domain, "DDS domain; default 0")->check(CLI::Range(0, wire::maximum_domain));
   app.add_option("--profile", options.profile, "loopback (default), lan, or a Cyclone DDS configuration PATH.xml");
+  app.add_option("--security", options.security, "folder with an identity; without it everything is in the open");
   app.add_option("--rate", rate, "realtime (default), max, or simulated seconds per wall second");
   app.add_flag("--paused", options.paused, "wait at step 0 for a command");
   app.add_option("--until", until, "simulated seconds after which the world is finished; the server stays");

@@ -12,8 +12,9 @@ struct Options {
   std::string scene;  // path of the scene file
   std::string world;  // "": the scene's name
   int domain = 0;
-  std::string profile;  // "": see idl/wire/profile.h
-  double rate = 1.0;    // simulated seconds per wall second; 0: as fast as possible
+  std::string profile;   // "": see idl/wire/profile.h
+  std::string security;  // folder with an identity, "": none
+  double rate = 1.0;     // simulated seconds per wall second; 0: as fast as possible
   bool paused = false;
   std::optional<double> until;              // s
   bool exit = false;                        // end when `until` is reached

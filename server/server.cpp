@@ -38,7 +38,7 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options) {
   auto scene = load_scene(options.scene, options.overrides);
   if (!scene) return scene.error();
   for (const auto& note : scene.value().notes) spdlog::info("{}", note);
-  auto participant = wire::Participant::create({options.domain, options.profile});
+  auto participant = wire::Participant::create({options.domain, options.profile, options.security});
   if (!participant) return Error{participant.error().message};
   const std::uint64_t server_id = RunIds().next();
   const std::string world = options.world.empty() ? scene.value().name : options.world;

@@ -25,9 +25,10 @@ wire::Result<void> claim_world(const wire::Participant& participant, const std::
                                const std::function<void()>& announce) {
   auto watch = wire::WorldWatch::create(participant);
   if (!watch) return watch.error();
+  const auto half = participant.security().empty() ? 250ms : 1000ms;
   const auto begin = Clock::now();
-  auto next_announcement = begin + 250ms;
-  while (Clock::now() < begin + 500ms) {
+  auto next_announcement = begin + half;
+  while (Clock::now() < begin + 2 * half) {
     watch.value().update();
     if (is_taken(watch.value(), world, server_id)) {
       return wire::Error{"a server with world '" + world + "' runs on domain " + std::to_string(participant.domain()) +

@@ -19,7 +19,8 @@ inline bool must_yield(std::uint64_t own_id, const Rival& rival) {
   return rival.heartbeat > 0 || rival.server_id < own_id;
 }
 
-// Listens for the world's name, then announces it and listens again: half a second in all. The error names the world
+// Listens for the world's name, then announces it and listens again: half a second in all, two seconds with an
+// identity, for it takes a third of a second until two servers have checked one another's. The error names the world
 // and the domain when this server has to yield. `announce` publishes a status of this server.
 wire::Result<void> claim_world(const wire::Participant& participant, const std::string& world, std::uint64_t server_id,
                                const std::function<void()>& announce);

@@ -46,7 +46,7 @@ bool contains(const std::vector<wire::Guid>& guids, const wire::Guid& guid) {
 
 Connection::Connection(ConnectOptions options, std::shared_ptr<const wire::Participant> participant,
                        wire::WorldWatch watch, wire::Reader<flexcast_Reply> replies,
-                       wire::Writer<flexcast_Command> commands)
+                       wire::Result<wire::Writer<flexcast_Command>> commands)
     : options_(std::move(options)),
       client_id_(make_client_id(options_.name)),
       participant_(std::move(participant)),
@@ -56,21 +56,23 @@ Connection::Connection(ConnectOptions options, std::shared_ptr<const wire::Parti
 
 Result<Connection> Connection::open(const ConnectOptions& options) {
   const Deadline deadline(options.wait);
-  auto participant = wire::Participant::create({.domain = options.domain, .profile = options.profile});
+  auto participant =
+      wire::Participant::create({.domain = options.domain, .profile = options.profile, .security = options.security});
   if (!participant) return participant.error();
   auto watch = wire::WorldWatch::create(participant.value());
   if (!watch) return watch.error();
   auto replies = wire::Reader<flexcast_Reply>::create(participant.value());
   if (!replies) return replies.error();
   auto commands = wire::Writer<flexcast_Command>::create(participant.value());
-  if (!commands) return commands.error();
+  if (!commands && options.security.empty()) return commands.error();
   auto world = choose_world(watch.value(), options, participant.value());
   if (!world) return world.error();
 
   ConnectOptions chosen = options;
   chosen.world = world.value();
   Connection connection(std::move(chosen), std::make_shared<const wire::Participant>(std::move(participant).value()),
-                        std::move(watch).value(), std::move(replies).value(), std::move(commands).value());
+                        std::move(watch).value(), std::move(replies).value(), std::move(commands));
+  if (!connection.commands_) return connection;
   if (auto matched = connection.wait_for_match(std::max<nanoseconds>(deadline.left(), 1s)); !matched)
     return matched.error();
   return connection;
@@ -100,7 +102,7 @@ std::string Connection::where() const {
 bool Connection::is_matched() {
   watch_.update();
   const wire::World* world = watch_.find(options_.world);
-  return world && contains(commands_.matched_participants(), world->participant) &&
+  return world && contains(commands_.value().matched_participants(), world->participant) &&
          contains(replies_.matched_participants(), world->participant);
 }
 
@@ -116,6 +118,9 @@ Result<void> Connection::wait_for_match(nanoseconds timeout) {
 }
 
 Result<Reply> Connection::send(const Request& request, nanoseconds timeout) {
+  if (!commands_)
+    return Error{"the identity in " + options_.security + " may not command " + where() + ": " +
+                 commands_.error().message};
   if (auto matched = wait_for_match(options_.wait); !matched) return matched.error();
   wire::Owned<flexcast_Command> command;
   to_wire(*command, request);
@@ -141,7 +146,7 @@ Result<Reply> Connection::await_reply(const flexcast_Command& command, nanosecon
   const Deadline deadline(timeout);
   nanoseconds interval = first_resend;
   for (;;) {
-    if (auto written = commands_.write(command); !written) return written.error();
+    if (auto written = commands_.value().write(command); !written) return written.error();
     const Deadline resend(std::min(interval, deadline.left()));
     do {
       if (auto reply = take_reply(command.request_id)) return std::move(*reply);

@@ -29,6 +29,8 @@ struct ConnectOptions {
   std::string world{};    // "": the only world of the domain
   int domain = 0;         // 0..230
   std::string profile{};  // loopback, lan, PATH.xml; "": loopback unless CYCLONEDDS_URI is set
+  // Folder with an identity; "": none. One that may only watch opens a connection whose commands are all errors.
+  std::string security{};
   std::chrono::nanoseconds wait = std::chrono::seconds(10);     // for the world to appear, when opening and later on
   std::chrono::nanoseconds timeout = std::chrono::seconds(10);  // for the reply to a command
   std::string name = "client";  // the beginning of client_id: who this is, in the server's log and events
@@ -38,8 +40,8 @@ using Status = std::shared_ptr<const flexcast_Status>;  // never null: status->s
 
 class Connection {
  public:
-  // Waits until the world is there and both ways are matched. The error says what was looked for: world, domain and
-  // profile; with several worlds and no name given it lists them.
+  // Waits until the world is there and, unless the identity may only watch, commands and replies are matched. The error
+  // says what was looked for: world, domain and profile; with several worlds and no name given it lists them.
   static Result<Connection> open(const ConnectOptions& options);
 
   const std::string& world() const { return options_.world; }
@@ -86,7 +88,7 @@ class Connection {
 
  private:
   Connection(ConnectOptions options, std::shared_ptr<const wire::Participant> participant, wire::WorldWatch watch,
-             wire::Reader<flexcast_Reply> replies, wire::Writer<flexcast_Command> commands);
+             wire::Reader<flexcast_Reply> replies, wire::Result<wire::Writer<flexcast_Command>> commands);
   static Result<std::string> choose_world(wire::WorldWatch& watch, const ConnectOptions& options,
                                           const wire::Participant& participant);
   bool is_matched();
@@ -102,7 +104,7 @@ class Connection {
   std::shared_ptr<const wire::Participant> participant_;  // shared: frame streams may outlive the connection
   wire::WorldWatch watch_;
   wire::Reader<flexcast_Reply> replies_;  // before commands_: no reply may come before there is a reader for it
-  wire::Writer<flexcast_Command> commands_;
+  wire::Result<wire::Writer<flexcast_Command>> commands_;  // an error: the identity may only watch
 };
 
 }  // namespace flexcast::client

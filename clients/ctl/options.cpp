@@ -82,6 +82,8 @@ Parsed parse(int argc, const char* const* argv, std::ostream& out, std::ostream&
       ->check(CLI::Range(0, wire::maximum_domain))
       ->capture_default_str();
   app.add_option("--profile", options.connect.profile, "Network: loopback, lan or PATH.xml (default: loopback)");
+  app.add_option("--security", options.connect.security,
+                 "Folder with an identity; without it everything is in the open");
   app.add_option("--wait", wait, "Seconds to wait for the server and for its reply")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();

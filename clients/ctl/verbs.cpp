@@ -70,8 +70,9 @@ int run_command(const Options& options, client::Connection& connection, std::ost
 }
 
 int run_list(const Options& options, std::ostream& out, std::ostream& err) {
+  const client::ConnectOptions& connect = options.connect;
   const auto participant =
-      wire::Participant::create({.domain = options.connect.domain, .profile = options.connect.profile});
+      wire::Participant::create({.domain = connect.domain, .profile = connect.profile, .security = connect.security});
   if (!participant) return fail(err, participant.error().message);
   auto watch = wire::WorldWatch::create(participant.value());
   if (!watch) return fail(err, watch.error().message);

@@ -47,6 +47,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--world", options.world, "name of the world; may be left out if there is only one on the domain");
   app.add_option("--domain", options.domain, "DDS domain; default 0")->check(CLI::Range(0, wire::maximum_domain));
   app.add_option("--profile", options.profile, "loopback (default), lan, or a Cyclone DDS configuration PATH.xml");
+  app.add_option("--security", options.security, "folder with an identity; without it everything is in the open");
   auto* frames_given = app.add_option("--frames", frames, "stop after so many frames")->check(CLI::PositiveNumber);
   auto* duration_given = app.add_option("--duration", duration, "stop so many seconds after the first frame")
                              ->check(check_seconds)

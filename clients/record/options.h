@@ -15,6 +15,7 @@ struct Options {
   std::string world;  // "": the only one on the domain
   int domain = 0;
   std::string profile;                  // "": see idl/wire/profile.h
+  std::string security{};               // folder with an identity, "": none
   std::optional<std::uint64_t> frames;  // stop after so many
   std::optional<double> duration;       // s, by the clock on the wall, from the first frame
   mcap::Compression compression = mcap::Compression::kLz4;

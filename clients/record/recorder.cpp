@@ -42,7 +42,8 @@ Limits limits_of(const Options& options) {
 
 wire::Result<std::unique_ptr<Recorder>> Recorder::start(const Options& options, const Interrupted& interrupted) {
   if (auto checked = check_output(options); !checked) return checked.error();
-  auto participant = wire::Participant::create({.domain = options.domain, .profile = options.profile});
+  auto participant =
+      wire::Participant::create({.domain = options.domain, .profile = options.profile, .security = options.security});
   if (!participant) return participant.error();
   auto watch = wire::WorldWatch::create(participant.value());
   if (!watch) return watch.error();

@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 Result<WorldWatch> WorldWatch::create(const Participant& participant) {
   auto reader = Reader<flexcast_Status>::create(participant);
   if (!reader) return reader.error();
-  return WorldWatch(std::move(reader).value());
+  return WorldWatch(std::move(reader).value(), participant.security().empty() ? 1 : 4);
 }
 
 void WorldWatch::update() {
@@ -33,7 +33,8 @@ void WorldWatch::update() {
 }
 
 void WorldWatch::discover(std::chrono::nanoseconds most) {
-  constexpr auto quiet = 250ms;  // processes answer within milliseconds of each other
+  const auto quiet = slowness_ * 250ms;  // processes answer within milliseconds of each other
+  most *= slowness_;
   const auto start = Clock::now();
   auto last_news = start;
   for (;;) {

@@ -32,7 +32,8 @@ class WorldWatch {
   // leave.
   void update();
 
-  // Updates until the news of worlds has ceased for a short while, at most for `most`: enough to know them all.
+  // Updates until the news of worlds has ceased for a short while, at most for `most`: enough to know them all. With an
+  // identity four times as long: it takes a third of a second to check one another's.
   void discover(std::chrono::nanoseconds most = std::chrono::seconds(1));
 
   // Updates until this world (any world, if "") is there; false on timeout.
@@ -48,8 +49,10 @@ class WorldWatch {
   static constexpr std::chrono::seconds silence{3};  // statuses come four times a second
 
  private:
-  explicit WorldWatch(Reader<flexcast_Status> reader) : reader_(std::move(reader)) {}
+  WorldWatch(Reader<flexcast_Status> reader, int slowness) : reader_(std::move(reader)), slowness_(slowness) {}
+
   Reader<flexcast_Status> reader_;
+  int slowness_;                           // of matches, 1: of participants without identities
   std::map<std::uint64_t, World> worlds_;  // by writer
 };
 

@@ -40,6 +40,11 @@ TEST(ServerOptions, EveryOptionIsUnderstood) {
   EXPECT_EQ(options.overrides, (std::vector<std::string>{"a.b=1", "gravity=[0,0,-3]"}));
 }
 
+TEST(ServerOptions, AnIdentityIsAFolder) {
+  EXPECT_EQ(std::get<Options>(parse({"s"})).security, "");
+  EXPECT_EQ(std::get<Options>(parse({"s", "--security", "keys/server"})).security, "keys/server");
+}
+
 TEST(ServerOptions, RateIsRealtimeMaxOrANumber) {
   EXPECT_EQ(std::get<Options>(parse({"s", "--rate", "max"})).rate, 0.0);
   EXPECT_EQ(std::get<Options>(parse({"s", "--rate", "realtime"})).rate, 1.0);

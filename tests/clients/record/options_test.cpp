@@ -31,6 +31,11 @@ TEST(Options, HaveTheDefaultsTheHelpTells) {
   EXPECT_FALSE(options.json);
 }
 
+TEST(Options, AnIdentityIsAFolder) {
+  EXPECT_EQ(std::get<Options>(parse({"-o", "run.mcap"})).security, "");
+  EXPECT_EQ(std::get<Options>(parse({"-o", "run.mcap", "--security", "keys/eye"})).security, "keys/eye");
+}
+
 TEST(Options, AreTakenFromTheCommandLine) {
   const auto parsed = parse({"-o", "run.mcap", "--world", "beam", "--domain", "7", "--profile", "lan", "--frames",
                              "100", "--compression", "zstd", "--wait", "0.5", "--force", "--json"});
