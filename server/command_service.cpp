@@ -83,9 +83,13 @@ void CommandService::accept(const flexcast_Command& message) {
   const RequestKey key = command.key;
   const auto lookup = memory_.begin(key);
   if (lookup.seen == ReplyMemory::Seen::answered) return write(*lookup.reply);
-  if (lookup.seen == ReplyMemory::Seen::in_flight || commands_.push(std::move(command))) return;
-  memory_.forget(key);  // the client sends it again
-  spdlog::warn("the command queue is full: request {} of {} was dropped", key.request_id, key.client_id);
+  if (lookup.seen == ReplyMemory::Seen::in_flight) return;
+  const bool full = !commands_.push(std::move(command));
+  if (full) memory_.forget(key);  // the client sends it again
+  if (full && !was_full_) {
+    spdlog::warn("the command queue is full: request {} of {} and more were dropped", key.request_id, key.client_id);
+  }
+  was_full_ = full;
 }
 
 // ---------------------------------------------------------------- replies out

@@ -45,6 +45,7 @@ class CommandService {
   Queue<Command>& commands_;
   Queue<Reply>& replies_;
   ReplyMemory memory_;
+  bool was_full_ = false;  // the queue of commands, at the last one
   wire::Reader<flexcast_Command> reader_;
   wire::Writer<flexcast_Reply> writer_;
   wire::GuardCondition stop_signal_;

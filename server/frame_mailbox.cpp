@@ -24,6 +24,7 @@ bool FrameMailbox::push(const FrameHeader& header, const State& state, ParticleF
   {
     const std::scoped_lock lock(mutex_);
     frame = rings_.back().acquire();
+    if (frame == nullptr) refused_ = true;
   }
   if (frame == nullptr) return false;
   FLEXCAST_CHECK(state.positions.size() == frame->positions.size() &&
@@ -61,11 +62,19 @@ void FrameMailbox::post(WorldStatus status) {
 }
 
 const Frame* FrameMailbox::take() {
+  bool room = false;
+  const Frame* frame = take_oldest(room);
+  if (room && on_room_) on_room_();
+  return frame;
+}
+
+const Frame* FrameMailbox::take_oldest(bool& room) {
   std::list<FrameRing> finished;  // goes after the lock
   const std::scoped_lock lock(mutex_);
   const auto ring = std::find_if(rings_.begin(), rings_.end(), [](const FrameRing& r) { return r.waiting() > 0; });
   if (ring == rings_.end()) return nullptr;
   if (taken_ != nullptr) rings_.front().release(taken_);
+  room = std::exchange(refused_, false);
   finished.splice(finished.end(), rings_, rings_.begin(), ring);
   return taken_ = ring->take();
 }

@@ -5,9 +5,11 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <list>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/sim/particle_fields.h"
@@ -34,6 +36,11 @@ class FrameMailbox {
   void post(WorldStatus status);
   bool status_wanted() const { return status_wanted_.load(std::memory_order_relaxed); }  // until a status is posted
   void beat() { heartbeat_.fetch_add(1, std::memory_order_relaxed); }
+  // Whether the world waits for recorders to have its frames.
+  void set_held(bool held) { held_.store(held, std::memory_order_relaxed); }
+  // To be called, on the publisher's thread, when there is room again after a frame was refused. To be set before the
+  // publisher starts.
+  void on_room(std::function<void()> call) { on_room_ = std::move(call); }
 
   // ---- for the publisher
 
@@ -42,6 +49,7 @@ class FrameMailbox {
   std::vector<Notice> take_notices();
   std::optional<WorldStatus> take_status();  // the newest, unless it was taken before
   void want_status() { status_wanted_.store(true, std::memory_order_relaxed); }
+  bool held() const { return held_.load(std::memory_order_relaxed); }
   std::uint64_t heartbeat() const { return heartbeat_.load(std::memory_order_relaxed); }
   // Until something waits, wake() is called or the time has come.
   void wait_until(Clock::time_point time);
@@ -53,7 +61,8 @@ class FrameMailbox {
   void wake();
 
  private:
-  std::size_t count_waiting() const;  // under the lock
+  std::size_t count_waiting() const;     // under the lock
+  const Frame* take_oldest(bool& room);  // `room`: there is some again
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -63,6 +72,9 @@ class FrameMailbox {
   std::vector<Notice> notices_;
   std::optional<WorldStatus> status_;
   bool woken_ = false;
+  bool refused_ = false;  // a frame, since there was room
+  std::function<void()> on_room_;
+  std::atomic<bool> held_ = false;
   std::atomic<bool> status_wanted_ = false;
   std::atomic<std::uint64_t> heartbeat_ = 0;
 };

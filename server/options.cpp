@@ -17,6 +17,8 @@ Example:
 runs the scene for ten simulated seconds, streams it as a world named after the scene on domain 0, and stays there,
 finished, for commands (flexcast-ctl reset, flexcast-ctl status) until it is interrupted.)";
 
+constexpr int most_recorders = 50;  // a domain has not many more processes
+
 std::optional<double> parse_number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -41,6 +43,17 @@ double parse_until(const std::string& text) {
   return *until;
 }
 
+// The parser says "true" when there was no number.
+int parse_lockstep(const std::string& text) {
+  if (text == "true") return 0;
+  const auto recorders = parse_number(text);
+  if (!recorders || *recorders != std::floor(*recorders) || *recorders < 0.0 || *recorders > most_recorders) {
+    throw CLI::ValidationError(
+        "--lockstep", "'" + text + "' is not a number of recorders from 0 to " + std::to_string(most_recorders));
+  }
+  return static_cast<int>(*recorders);
+}
+
 std::string check_world(const std::string& name) {
   const auto checked = check_name(name);
   return checked ? "" : checked.error().message;
@@ -57,6 +70,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   Options options;
   std::string rate = "realtime";
   std::string until;
+  std::string lockstep;
   CLI::App app("Runs the soft bodies of a scene and streams every particle over DDS.", "flexcast-server");
   app.footer(example);
   app.add_option("SCENE", options.scene, "scene file (TOML)")->required();
@@ -70,6 +84,9 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_flag("--exit", options.exit, "end when --until is reached");
   app.add_option("--checkpoints", options.checkpoints,
                  "folder for checkpoints, made when needed; default: checkpoints; each is DIR/WORLD/NAME.checkpoint");
+  app.add_flag("--lockstep", lockstep,
+               "wait for the recorders that ask for it, so that they get every frame; "
+               "--lockstep=N: begin when N of them have the first");
   app.add_option("--threads", options.threads, "threads of the engine; any number gives the same bits; default 1")
       ->check(CLI::Range(1, 1024));
   app.add_option("--set", options.overrides, "PATH=VALUE over what the scene file says; may be repeated")
@@ -81,6 +98,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
     app.parse(argc, argv);
     options.rate = parse_rate(rate);
     if (!until.empty()) options.until = parse_until(until);
+    if (!lockstep.empty()) options.lockstep = parse_lockstep(lockstep);
     if (options.exit && !options.until) throw CLI::ValidationError("--exit", "needs --until");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;

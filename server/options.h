@@ -19,6 +19,7 @@ struct Options {
   std::optional<double> until;              // s
   bool exit = false;                        // end when `until` is reached
   std::string checkpoints = "checkpoints";  // folder of all worlds' checkpoints
+  std::optional<int> lockstep;              // wait for recorders; for so many of them before the first step
   int threads = 1;                          // of the engine; any number gives the same bits
   std::vector<std::string> overrides;
 };

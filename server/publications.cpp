@@ -35,11 +35,12 @@ Publications::Publications(Writers writers, std::string world, std::uint64_t ser
     : writers_(std::move(writers)), world_(std::move(world)), server_id_(server_id), frame_message_(world_) {}
 
 template <class T>
-void Publications::write(const wire::Writer<T>& writer, const T& message) {
+bool Publications::write(const wire::Writer<T>& writer, const T& message) {
   const auto result = writer.write(message);
-  if (result) return;
+  if (result) return true;
   const std::string complaint = std::string(wire::topic_of<T>().name) + ": " + result.error().message;
   if (complaints_.insert(complaint).second) spdlog::error("{} (said once)", complaint);
+  return false;
 }
 
 void Publications::publish(const Notice& notice) {
@@ -76,13 +77,15 @@ void Publications::publish(const WorldStatus& status, const DeliveryStatus& deli
   write(writers_.status, *to_wire(status, delivery, {world_, server_id_}));
 }
 
-void Publications::publish(const Frame& frame) {
-  if (frame_readers().current == 0) return;
+bool Publications::publish(const Frame& frame) {
+  if (frame_readers().current == 0) return false;
   frame_message_.assign(frame);
   most_frame_chunks_ = std::max(most_frame_chunks_, frame_message_.chunks());
+  bool written = true;
   for (std::uint32_t chunk = 0; chunk < frame_message_.chunks(); ++chunk) {
-    write(writers_.frames, frame_message_.chunk(chunk));
+    written &= write(writers_.frames, frame_message_.chunk(chunk));
   }
+  return written;
 }
 
 template <class T>

@@ -26,8 +26,8 @@ class Publications {
 
   void publish(const Notice& notice);
   void publish(const WorldStatus& status, const DeliveryStatus& delivery);
-  // Not converted at all when nobody reads.
-  void publish(const Frame& frame);
+  // Not converted at all when nobody reads. Returns whether it was written to somebody, as a whole.
+  bool publish(const Frame& frame);
 
   wire::Matched frame_readers() const { return writers_.frames.matched(); }
 
@@ -49,7 +49,7 @@ class Publications {
   void publish_one(const ParametersChanged& parameters);
   void publish_one(const Event& event);
   template <class T>
-  void write(const wire::Writer<T>& writer, const T& message);
+  bool write(const wire::Writer<T>& writer, const T& message);
   template <class T>
   void dispose(const wire::Writer<T>& writer, T& message);
   void dispose_topology(const std::vector<std::uint32_t>& still_there);

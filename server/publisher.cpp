@@ -12,6 +12,7 @@ constexpr Clock::duration status_period = 240ms;      // at the latest an old on
 constexpr double report_share = 0.05;                 // of the simulation's time, at most, for reports
 constexpr Clock::duration match_time = 20ms;          // until both sides of a new match surely know each other
 constexpr Clock::duration late_reader_delay = 100ms;  // a new reader waits that long for a frame, then gets the newest
+constexpr Clock::duration held_period = 500ms;        // a world in lockstep sends its newest frame again while it waits
 constexpr Clock::duration poll_period = 50ms;         // for new readers
 constexpr Clock::duration drain_time = 1s;
 
@@ -79,7 +80,11 @@ void Publisher::publish_status(Clock::time_point now) {
 void Publisher::write_status(Clock::time_point now) {
   DeliveryStatus delivery;
   delivery.heartbeat = mailbox_.heartbeat();
-  delivery.frames_published = newest_ != nullptr && newest_->header.run_id == status_.run_id ? published_ : 0;
+  delivery.silent = !stopping_ && heartbeat_watch_.is_silent(now, delivery.heartbeat);
+  if (newest_ != nullptr && newest_->header.run_id == status_.run_id) {
+    delivery.frames_published = published_;
+    delivery.unpublished = unpublished_.ranges();
+  }
   delivery.frame_queue = static_cast<std::uint32_t>(mailbox_.waiting());
   delivery.readers = publications_.frame_readers().current;
   publications_.publish(status_, delivery);
@@ -92,10 +97,15 @@ bool Publisher::publish_frame(Clock::time_point now) {
   const std::uint64_t run_before = newest_ != nullptr ? newest_->header.run_id : 0;
   const Frame* frame = mailbox_.take();
   if (frame == nullptr) return false;
-  if (frame->header.run_id != run_before) published_ = 0;
+  if (frame->header.run_id != run_before) {
+    published_ = 0;
+    unpublished_.clear();
+  }
   newest_ = frame;
-  publications_.publish(*frame);
-  ++published_;
+  newest_published_ = publications_.publish(*frame);
+  newest_written_ = now;
+  if (newest_published_) ++published_;
+  unpublished_.note(frame->header.frame, newest_published_);
   if (reader_joined_ && now - *reader_joined_ >= match_time) reader_joined_.reset();
   return true;
 }
@@ -104,9 +114,19 @@ void Publisher::serve_late_reader(Clock::time_point now) {
   const std::uint32_t total = publications_.frame_readers().total;
   if (total > readers_ever_) reader_joined_ = now;
   readers_ever_ = total;
-  if (!reader_joined_ || newest_ == nullptr || now - *reader_joined_ < late_reader_delay) return;
+  if (newest_ == nullptr) return;
+  const bool is_late = reader_joined_ && now - *reader_joined_ >= late_reader_delay;
+  if (!is_late && !(mailbox_.held() && now - newest_written_ >= held_period)) return;
   reader_joined_.reset();
-  publications_.publish(*newest_);
+  publish_newest_again(now);
+}
+
+void Publisher::publish_newest_again(Clock::time_point now) {
+  newest_written_ = now;
+  if (!publications_.publish(*newest_) || newest_published_) return;
+  newest_published_ = true;
+  ++published_;
+  unpublished_.note_newest_published();
 }
 
 }  // namespace flexcast::server

@@ -1,5 +1,6 @@
 // Publisher: the thread that brings the mailbox's content to the network: notices first, the status at least four times
-// a second, then frames one by one. A reader that joins while no new frame comes gets the newest again.
+// a second, then frames one by one. A reader that joins while no new frame comes gets the newest again, and so does a
+// recorder that a world in lockstep waits for.
 #pragma once
 
 #include <atomic>
@@ -7,7 +8,9 @@
 #include <thread>
 
 #include "server/frame_mailbox.h"
+#include "server/heartbeat_watch.h"
 #include "server/publications.h"
+#include "server/unpublished_frames.h"
 
 namespace flexcast::server {
 
@@ -40,12 +43,17 @@ class Publisher {
   void write_status(Clock::time_point now);
   bool publish_frame(Clock::time_point now);
   void serve_late_reader(Clock::time_point now);
+  void publish_newest_again(Clock::time_point now);
 
   Publications& publications_;
   FrameMailbox& mailbox_;
   const Frame* newest_ = nullptr;  // stays the mailbox's
+  bool newest_published_ = false;  // somebody read
   std::uint64_t published_ = 0;    // frames of the newest one's run
+  Clock::time_point newest_written_;
+  UnpublishedFrames unpublished_;  // likewise
   WorldStatus status_;
+  HeartbeatWatch heartbeat_watch_;
   Clock::time_point next_request_;    // of a status
   Clock::time_point status_written_;  // the last
   std::uint32_t readers_ever_ = 0;

@@ -17,6 +17,12 @@ wire::Qos make_frames_qos(const Scene& scene) {
   return wire::frames_writer_qos(calc_frame_size(simulation.model().particle_count(), format).bytes);
 }
 
+std::unique_ptr<RecorderRoll> make_roll(const Options& options, const wire::Qos& frames) {
+  if (!options.lockstep) return nullptr;
+  return std::make_unique<RecorderRoll>(
+      RecorderRoll::Rules{static_cast<std::size_t>(*options.lockstep), static_cast<std::size_t>(frames.depth)});
+}
+
 // From the folder of the scene that the server was started with.
 SceneLoader make_scene_loader(const std::string& first_scene, const wire::Qos& frames) {
   return [folder = std::filesystem::path(first_scene).parent_path(), frames](const std::string& name) -> Result<Scene> {
@@ -49,8 +55,9 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options) {
   const WorldOptions world_options{options.rate, options.paused, options.until,
                                    std::filesystem::path(options.checkpoints) / world,
                                    make_scene_loader(options.scene, frames)};
-  std::unique_ptr<Server> server(new Server(std::move(scene).value(), world_options, std::move(participant).value(),
-                                            std::move(publications).value()));
+  auto roll = make_roll(options, frames);
+  std::unique_ptr<Server> server(new Server(std::move(scene).value(), world_options, std::move(roll),
+                                            std::move(participant).value(), std::move(publications).value()));
   const auto announce = [&] { server->publications_.publish(server->world_.calc_status(), {}); };
   auto claimed = claim_world(server->participant_, server->publications_.world(), server_id, announce);
   if (!claimed) return Error{claimed.error().message};
@@ -58,28 +65,41 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options) {
       CommandService::create(server->participant_, server->publications_.world(), server->commands_, server->replies_);
   if (!service) return Error{service.error().message};
   server->service_ = std::move(service).value();
+  if (auto watched = server->watch_recorders(); !watched) return Error{watched.error().message};
   server->publisher_.start();
   server->simulation_.start();
   server->service_->start();
   return server;
 }
 
-Server::Server(Scene scene, const WorldOptions& options, wire::Participant participant, Publications publications)
+wire::Result<void> Server::watch_recorders() {
+  if (!roll_) return {};
+  auto recorders = RecorderWatch::create(participant_, publications_.world(), *roll_, [this] { commands_.wake(); });
+  if (!recorders) return recorders.error();
+  recorders_ = std::move(recorders).value();
+  recorders_->start();
+  return {};
+}
+
+Server::Server(Scene scene, const WorldOptions& options, std::unique_ptr<RecorderRoll> roll,
+               wire::Participant participant, Publications publications)
     : participant_(std::move(participant)),
       world_(std::move(scene), options, run_ids_),
       mailbox_(world_.simulation().model().particle_count()),
-      simulation_(world_, commands_, replies_, mailbox_),
+      roll_(std::move(roll)),
+      simulation_(world_, commands_, replies_, mailbox_, roll_.get()),
       publications_(std::move(publications)),
       publisher_(publications_, mailbox_),
-      description_(fmt::format("world {} on domain {}, profile {}: {} particles, dt {:g} s, rate {}{}",
+      description_(fmt::format("world {} on domain {}, profile {}: {} particles, dt {:g} s, rate {}{}{}",
                                publications_.world(), participant_.domain(), participant_.profile(),
                                world_.simulation().model().particle_count(), world_.simulation().settings().time.step,
                                options.rate > 0.0 ? fmt::format("{:g}", options.rate) : "max",
-                               options.paused ? ", paused" : "")) {}
+                               options.paused ? ", paused" : "", roll_ ? ", in lockstep" : "")) {}
 
 void Server::stop() {
   if (service_) service_->stop_receiving();
   simulation_.stop();
+  if (recorders_) recorders_->stop();
   if (service_) service_->stop_replying();
   publisher_.stop();
 }

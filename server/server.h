@@ -10,6 +10,7 @@
 #include "server/frame_mailbox.h"
 #include "server/options.h"
 #include "server/publisher.h"
+#include "server/recorder_watch.h"
 #include "server/simulation_thread.h"
 
 namespace flexcast::server {
@@ -29,12 +30,15 @@ class Server {
   const std::string& description() const { return description_; }
 
   WorldState state() const { return simulation_.state(); }
-  // The world stands at its end (or failed), and its last frame is on its way.
+  // The world stands at its end (or failed), and its last frame is on its way; in lockstep recorders have it.
   bool ended() const;
   Publisher::Latest latest() const { return publisher_.latest(); }
 
  private:
-  Server(Scene scene, const WorldOptions& options, wire::Participant participant, Publications publications);
+  Server(Scene scene, const WorldOptions& options, std::unique_ptr<RecorderRoll> roll, wire::Participant participant,
+         Publications publications);
+
+  wire::Result<void> watch_recorders();
 
   wire::Participant participant_;
   RunIds run_ids_;
@@ -42,10 +46,12 @@ class Server {
   Queue<Command> commands_{4096};  // more than that and clients have to ask again
   Queue<Reply> replies_;
   FrameMailbox mailbox_;
+  std::unique_ptr<RecorderRoll> roll_;  // null: not in lockstep
   SimulationThread simulation_;
   Publications publications_;
   Publisher publisher_;
   std::unique_ptr<CommandService> service_;
+  std::unique_ptr<RecorderWatch> recorders_;  // with a roll
   std::string description_;
 };
 

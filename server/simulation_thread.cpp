@@ -4,13 +4,16 @@
 
 namespace flexcast::server {
 
-SimulationThread::SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox)
+SimulationThread::SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox,
+                                   RecorderRoll* roll)
     : world_(world),
       commands_(commands),
       replies_(replies),
       mailbox_(mailbox),
+      roll_(roll),
       pacer_(world.rate()),
       topology_revision_(world.topology_revision()) {
+  if (roll_ != nullptr) mailbox_.on_room([&commands] { commands.wake(); });
   hand_frame_over();
   hand_on();
 }
@@ -37,9 +40,11 @@ void SimulationThread::run() {
 }
 
 Clock::duration SimulationThread::turn(Clock::time_point now) {
+  turned_ = now;
   mailbox_.beat();
   apply_commands(now);
   hand_frame_over();
+  const bool held = is_held(now);
   hand_on();
   if (!world_.running()) {
     pacer_.restart();
@@ -50,6 +55,7 @@ Clock::duration SimulationThread::turn(Clock::time_point now) {
   pacer_.set_rate(world_.rate());
   const auto wait = pacer_.calc_wait(now, world_.simulation_state().time, world_.next_time());
   if (wait > Clock::duration::zero()) return wait;
+  if (held) return longest_sleep;
   step();
   return Clock::duration::zero();
 }
@@ -59,7 +65,7 @@ void SimulationThread::apply_commands(Clock::time_point now) {
   for (const Command& command : commands_.take_all()) {
     const auto run = world_.run_id();
     const double time = world_.simulation_state().time;
-    world_.apply(command, now);
+    world_.apply(command, std::max(now, Clock::now()));  // the one before may have taken long
     follow(run, time);
     hand_frame_over();
   }
@@ -81,6 +87,20 @@ void SimulationThread::follow(std::uint64_t run, double time) {
   meter_.stop();
 }
 
+RecorderRoll::Position SimulationThread::position() const {
+  return {world_.run_id(), world_.newest_frame(), mailbox_.capacity()};
+}
+
+// Whether lockstep forbids the next step.
+bool SimulationThread::is_held(Clock::time_point now) {
+  if (roll_ == nullptr) return false;
+  const bool by_recorders = world_.running() && !roll_->may_step(position());
+  if (!by_recorders) held_since_.reset();
+  if (by_recorders && !held_since_) held_since_ = now;
+  mailbox_.set_held(by_recorders);
+  return by_recorders || pending_;
+}
+
 void SimulationThread::step() {
   drop_pending_frame();
   const auto begin = Clock::now();
@@ -98,7 +118,7 @@ void SimulationThread::hand_frame_over() {
     pending_ = header;
   }
   if (pending_ && mailbox_.push(*pending_, world_.simulation_state(), find_fields())) pending_.reset();
-  handed_over_ = !pending_;
+  handed_over_ = !pending_ && (roll_ == nullptr || world_.running() || roll_->have_all(position()));
 }
 
 // Null: the frame that waits has neither stretch nor stress.
@@ -130,6 +150,9 @@ void SimulationThread::post_status() {
   status.step_seconds = meter_.step_seconds();
   status.frames_skipped = frames_skipped_;
   status.command_queue = static_cast<std::uint32_t>(commands_.size());
+  if (is_long_held()) {
+    for (std::string& wait : roll_->calc_waits(position())) status.warnings.push_back(std::move(wait));
+  }
   posted_run_ = status.run_id;
   posted_state_ = status.state;
   mailbox_.post(std::move(status));

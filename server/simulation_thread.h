@@ -1,5 +1,6 @@
 // SimulationThread: owns the step loop. It applies the commands that wait, steps, hands the frame on, keeps the pace;
-// it never calls DDS and never waits for the publisher.
+// it never calls DDS and never waits for the publisher. In lockstep it takes a step only when the last frame has found
+// room in the mailbox and the roll of recorders lets it; commands, heartbeat and statuses go on meanwhile.
 #pragma once
 
 #include <atomic>
@@ -11,15 +12,17 @@
 #include "server/pacer.h"
 #include "server/queue.h"
 #include "server/rate_meter.h"
+#include "server/recorder_roll.h"
 #include "server/world.h"
 
 namespace flexcast::server {
 
 class SimulationThread {
  public:
-  // `commands` in, `replies` and `mailbox` out; all must outlive this object. The first status, frame and notices are
-  // handed on here.
-  SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox);
+  // `commands` in, `replies` and `mailbox` out, `roll` to run in lockstep (whoever changes it wakes `commands`); all
+  // must outlive this object. The first status, frame and notices are handed on here.
+  SimulationThread(World& world, Queue<Command>& commands, Queue<Reply>& replies, FrameMailbox& mailbox,
+                   RecorderRoll* roll = nullptr);
   ~SimulationThread() { stop(); }
   SimulationThread(const SimulationThread&) = delete;
   SimulationThread& operator=(const SimulationThread&) = delete;
@@ -31,27 +34,35 @@ class SimulationThread {
   // One turn of the loop, for tests that run it without the thread. Returns how long the loop may sleep.
   Clock::duration turn(Clock::time_point now);
 
-  // As of the last turn: the world's state, and whether its newest frame is in the mailbox.
+  // As of the last turn: the world's state, and whether its newest frame is in the mailbox and, in lockstep, in the
+  // hands of every recorder.
   WorldState state() const { return state_; }
   bool handed_over() const { return handed_over_; }
 
  private:
   static constexpr Clock::duration longest_sleep = std::chrono::milliseconds(50);
+  static constexpr Clock::duration silent_hold = std::chrono::seconds(1);  // a longer one is told in the status
 
   void run();
   void apply_commands(Clock::time_point now);
   void follow(std::uint64_t run, double time);
+  bool is_held(Clock::time_point now);
+  RecorderRoll::Position position() const;
   void step();
   void hand_frame_over();
   ParticleFields* find_fields();
   void drop_pending_frame();
   void hand_on();  // notices, replies; status when wanted or the state changed
   void post_status();
+  bool is_long_held() const { return held_since_ && turned_ - *held_since_ >= silent_hold; }
 
   World& world_;
   Queue<Command>& commands_;
   Queue<Reply>& replies_;
   FrameMailbox& mailbox_;
+  RecorderRoll* roll_;                           // null: not in lockstep
+  Clock::time_point turned_;                     // when the present turn began
+  std::optional<Clock::time_point> held_since_;  // by recorders
   Pacer pacer_;
   RateMeter meter_;
   std::optional<FrameHeader> pending_;    // of the present state: found no room yet

@@ -51,7 +51,8 @@ class World {
   std::uint64_t topology_revision() const { return topology_revision_; }  // grows with every scene that is loaded
   const Simulation& simulation() const { return *scene_->simulation; }
   const State& simulation_state() const { return simulation().state(); }
-  double next_time() const;  // s, after the next step
+  double next_time() const;                                       // s, after the next step
+  std::uint64_t newest_frame() const { return next_frame_ - 1; }  // of the run, which begins with one
 
   // Does what the command asks, between two steps. The answer is among the replies, at once or when it is reached.
   void apply(const Command& command, Clock::time_point now);

@@ -9,6 +9,9 @@
 namespace flexcast::server {
 namespace {
 
+constexpr const char* silence_warning =
+    "the step loop has not come round for more than a second: a step, a command or a load takes long or never ends";
+
 double finite_or_nan(double value) {
   return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
@@ -67,7 +70,7 @@ wire::Owned<flexcast_Status> to_wire(const WorldStatus& status, const DeliverySt
   message->state = to_wire(status.state);
   message->heartbeat = delivery.heartbeat;
   message->report = to_wire(status.report);
-  message->real_time_factor = status.real_time_factor;
+  message->real_time_factor = delivery.silent ? 0.0 : status.real_time_factor;
   message->step_seconds = status.step_seconds;
   message->rate = status.rate;
   message->frames_published = delivery.frames_published;
@@ -92,7 +95,14 @@ wire::Owned<flexcast_Status> to_wire(const WorldStatus& status, const DeliverySt
     set_vector(handles[i].force, status.handles[i].force);
     set_vector(handles[i].torque, status.handles[i].torque);
   }
-  wire::set_strings(message->warnings, status.warnings);
+  auto warnings = status.warnings;
+  if (delivery.silent) warnings.emplace_back(silence_warning);
+  wire::set_strings(message->warnings, warnings);
+  const auto unpublished = wire::resize(message->unpublished, 2 * delivery.unpublished.size());
+  for (std::size_t i = 0; i < delivery.unpublished.size(); ++i) {
+    unpublished[2 * i] = delivery.unpublished[i].first;
+    unpublished[2 * i + 1] = delivery.unpublished[i].last;
+  }
   return message;
 }
 

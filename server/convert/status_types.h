@@ -36,12 +36,19 @@ struct WorldStatus {
   std::uint32_t command_queue = 0;
 };
 
+struct FrameRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;  // included
+};
+
 // What the publisher knows and the world does not.
 struct DeliveryStatus {
   std::uint64_t heartbeat = 0;
-  std::uint64_t frames_published = 0;  // of this run
+  std::uint64_t frames_published = 0;  // of this run, written to somebody
   std::uint32_t frame_queue = 0;
   std::uint32_t readers = 0;
+  bool silent = false;                       // the step loop has not come round for long
+  std::vector<FrameRange> unpublished = {};  // of this run, the newest ranges
 };
 
 }  // namespace flexcast::server

@@ -51,6 +51,14 @@ TEST(ServerOptions, RateIsRealtimeMaxOrANumber) {
   EXPECT_EQ(std::get<Options>(parse({"s", "--rate", "0.25"})).rate, 0.25);
 }
 
+TEST(ServerOptions, LockstepMayNameHowManyRecordersTheWorldBeginsWith) {
+  EXPECT_FALSE(std::get<Options>(parse({"s"})).lockstep.has_value());
+  const auto plain = std::get<Options>(parse({"--lockstep", "s"}));
+  EXPECT_EQ(plain.lockstep, 0);
+  EXPECT_EQ(plain.scene, "s");
+  EXPECT_EQ(std::get<Options>(parse({"s", "--lockstep=2"})).lockstep, 2);
+}
+
 TEST(ServerOptions, AScenePathAfterSetIsStillTheScene) {
   const auto options = std::get<Options>(parse({"--set", "a=1", "scene.toml"}));
   EXPECT_EQ(options.scene, "scene.toml");
@@ -61,6 +69,9 @@ TEST(ServerOptions, BadUsageEndsWith2) {
   const std::vector<std::vector<const char*>> bad = {
       {},
       {"s", "--unknown"},
+      {"s", "--lockstep=-1"},
+      {"s", "--lockstep=some"},
+      {"s", "--lockstep=51"},
       {"s", "--rate", "0"},
       {"s", "--rate", "-1"},
       {"s", "--rate", "nan"},

@@ -197,6 +197,45 @@ TEST(Server, ALateReaderOfAStandingWorldSeesTheNewestFrame) {
   }));
 }
 
+// The newest status for which `wanted` is true.
+template <class Condition>
+void wait_for_status(const wire::Reader<flexcast_Status>& statuses, Condition wanted) {
+  const bool came = wait_for([&] {
+    auto samples = statuses.take();
+    for (auto [status, info] : samples.value()) {
+      if (info.valid && wanted(status)) return true;
+    }
+    return false;
+  });
+  if (!came) throw std::runtime_error("no status as the test waits for");
+}
+
+std::vector<std::uint64_t> unpublished(const flexcast_Status& status) {
+  const auto numbers = wire::elements(status.unpublished);
+  return {numbers.begin(), numbers.end()};
+}
+
+TEST(Server, NamesTheFramesThatNobodyReadAndTakesBackTheOneItSendsAgain) {
+  const auto server = start_paused_server();
+  Client client;
+  auto statuses = wire::Reader<flexcast_Status>::create(client.participant()).value();
+  auto command = Client::make(flexcast_COMMAND_STEP);
+  command->count = 7;
+  client.ask(command);
+  using Numbers = std::vector<std::uint64_t>;
+  wait_for_status(statuses, [](const flexcast_Status& status) {
+    return unpublished(status) == Numbers{0, 7} && status.frames_published == 0;
+  });
+  auto frames = wire::Reader<flexcast_ParticleFrame>::create(client.participant()).value();
+  wait_for_status(statuses, [](const flexcast_Status& status) {
+    return unpublished(status) == Numbers{0, 6} && status.frames_published == 1;
+  });
+  client.ask(Client::make(flexcast_COMMAND_RESET));
+  wait_for_status(statuses, [](const flexcast_Status& status) {
+    return unpublished(status).empty() && status.frames_published == 1 && status.report.step == 0;
+  });
+}
+
 TEST(Server, ARepeatedRequestIsAnsweredAgainAndExecutedOnce) {
   const auto server = start_paused_server();
   Client client;
