@@ -54,6 +54,7 @@ void RecorderWatch::stop() {
 void RecorderWatch::run() {
   while (!stopping_) {
     if (wait_set_.wait(std::chrono::seconds(1))) take();
+    forget_the_dead();
   }
 }
 
@@ -70,12 +71,25 @@ void RecorderWatch::take() {
   if (!samples.value().empty()) changed_();
 }
 
+// A process that was killed does not always show as a change of its instance; its writer is gone in any case.
+void RecorderWatch::forget_the_dead() {
+  const auto forgotten = std::erase_if(writers_, [this](const auto& entry) {
+    if (reader_.participant_of(entry.second)) return false;
+    roll_.forget(entry.first);
+    return true;
+  });
+  if (forgotten > 0) changed_();
+}
+
 // An instance that is not alive was disposed, or its writer is gone, by its own will or since its lease has run out.
 void RecorderWatch::follow(const flexcast_RecorderInfo& recorder, const wire::SampleInfo& info) {
   const std::string id(wire::text(recorder.recorder_id));
-  if (info.state != wire::InstanceState::alive) return roll_.forget(id);
-  if (!info.valid) return;
-  if (!takes_part(recorder)) return roll_.forget(id);
+  if (info.state == wire::InstanceState::alive && !info.valid) return;
+  if (info.state != wire::InstanceState::alive || !takes_part(recorder)) {
+    writers_.erase(id);
+    return roll_.forget(id);
+  }
+  writers_[id] = info.writer;
   roll_.note(id, {recorder.state == flexcast_RECORDER_PAUSED, recorder.run_id, recorder.next_frame});
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -30,11 +31,13 @@ class RecorderWatch {
                 wire::Reader<flexcast_RecorderInfo> reader, wire::GuardCondition stop_signal, wire::WaitSet wait_set);
   void run();
   void take();
+  void forget_the_dead();
   void follow(const flexcast_RecorderInfo& recorder, const wire::SampleInfo& info);
 
   std::string world_;
   RecorderRoll& roll_;
   std::function<void()> changed_;
+  std::map<std::string, std::uint64_t> writers_;  // of the recorders on the roll
   wire::Reader<flexcast_RecorderInfo> reader_;
   wire::GuardCondition stop_signal_;
   wire::WaitSet wait_set_;  // goes before what is attached to it

@@ -1,5 +1,5 @@
 // LockstepRecorder: takes a world's frames one by one and tells the server what it has in hand, as a recorder in
-// lockstep does. It queues next to nothing, so a server that does not wait for it runs away from it.
+// lockstep does. It queues no more than a server may be ahead of it, so one that does not wait runs away from it.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ class LockstepRecorder {
 
   LockstepRecorder(const wire::Participant& participant, std::string world, const std::string& id)
       : world_(std::move(world)),
-        frames_(wire::Reader<flexcast_ParticleFrame>::create(participant, {.depth = 0, .max_samples = 8}).value()),
+        frames_(wire::Reader<flexcast_ParticleFrame>::create(participant, {.depth = 0, .max_samples = queue}).value()),
         writer_(wire::Writer<flexcast_RecorderInfo>::create(participant).value()) {
     wire::set_string(info_->world, world_);
     wire::set_string(info_->recorder_id, id);
@@ -62,6 +62,9 @@ class LockstepRecorder {
   void dispose() const { (void)writer_.dispose(*info_); }
 
  private:
+  // Never full while the server waits: a full reader blocks every other of its process, and its own deletion.
+  static constexpr std::int32_t queue = 64;
+
   bool is_newer(const flexcast_ParticleFrame& frame) const {
     return !newest_ || frame.run_id > newest_->run_id ||
            (frame.run_id == newest_->run_id && frame.frame > newest_->frame);
