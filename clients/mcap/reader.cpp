@@ -84,6 +84,15 @@ const Record* Reader::next() {
   return (in_chunk_ ? next_in_chunk() : next_in_file()) ? &record_ : nullptr;
 }
 
+void Reader::seek(std::uint64_t offset) {
+  position_ = offset;
+  summary_start_ = 0;
+  read_from_start_ = offset == 0;
+  data_crc_ = 0;
+  chunk_rest_ = {};
+  end_ = {};
+}
+
 bool Reader::start() {
   const std::size_t there = std::min(file_.size(), kMagic.size());
   if (!std::equal(file_.begin(), file_.begin() + static_cast<std::ptrdiff_t>(there), kMagic.begin())) {
@@ -154,7 +163,8 @@ bool Reader::accept_attachment(const Attachment& attachment) {
 bool Reader::accept_data_end(const DataEnd& data_end) {
   // The checksum starts with the first byte of the file.
   const std::uint32_t crc = crc32_join(crc32(file_.first(kMagic.size())), data_crc_, record_offset_ - kMagic.size());
-  if (options_.check_crcs && data_end.data_section_crc != 0 && data_end.data_section_crc != crc) {
+  const bool can_check = options_.check_crcs && read_from_start_;
+  if (can_check && data_end.data_section_crc != 0 && data_end.data_section_crc != crc) {
     return damaged("the checksum of the data section is wrong");
   }
   summary_start_ = position_;

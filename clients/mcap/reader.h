@@ -52,6 +52,11 @@ class Reader {
   // schemas and channels come again in the summary. A message comes only after its channel and schema are known.
   const Record* next();
 
+  // Goes on with the record at `offset`: a record_offset() that this reader has told, or 0 for the beginning. Schemas
+  // and channels met so far stay known. Unless it is the beginning, the checksum of the whole data section is not
+  // compared any more; that of each chunk still is.
+  void seek(std::uint64_t offset);
+
   const ReadEnd& end() const { return end_; }
 
   // Of the current record, or of the chunk it is in.
@@ -88,7 +93,8 @@ class Reader {
   std::uint64_t record_offset_ = 0;
   std::uint64_t summary_start_ = 0;  // 0 before the end of the data section
   std::uint32_t data_crc_ = 0;
-  Bytes chunk_rest_;  // records of the chunk that were not given yet
+  bool read_from_start_ = true;  // every byte so far is in data_crc_
+  Bytes chunk_rest_;             // records of the chunk that were not given yet
   bool in_chunk_ = false;
   ReadEnd end_;
 };

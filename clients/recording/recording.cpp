@@ -1,8 +1,14 @@
 #include "clients/recording/recording.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace flexcast::recording {
+namespace {
+
+constexpr std::uint64_t mark_distance = 64 * 1024;  // bytes of the file
+
+}  // namespace
 
 wire::Result<Recording> Recording::open(const std::string& path) {
   auto file = mcap::MappedFile::open(path);
@@ -14,13 +20,20 @@ wire::Result<Recording> Recording::open(const std::string& path) {
 }
 
 Recording::Recording(std::string path, mcap::MappedFile file) : path_(std::move(path)), file_(std::move(file)) {
-  rewind();
+  reader_ = std::make_unique<mcap::Reader>(file_.bytes());
 }
 
-void Recording::rewind() {
-  reader_ = std::make_unique<mcap::Reader>(file_.bytes());
-  rows_.clear();
+void Recording::seek(std::uint64_t ordinal) {
+  const auto after = std::upper_bound(marks_.begin(), marks_.end(), ordinal,
+                                      [](std::uint64_t wanted, const Mark& mark) { return wanted < mark.ordinal; });
+  const Mark mark = after == marks_.begin() ? Mark{} : *std::prev(after);
   trouble_.clear();
+  if (ordinal < ordinal_ || mark.ordinal > ordinal_ || ordinal == 0) {
+    reader_->seek(mark.offset);
+    ordinal_ = mark.ordinal;
+  }
+  while (ordinal_ < ordinal && next() != nullptr) {
+  }
 }
 
 const RecordedMessage* Recording::next() {
@@ -31,7 +44,10 @@ const RecordedMessage* Recording::next() {
       return nullptr;
     }
     const auto* message = std::get_if<mcap::Message>(record);
-    if (message != nullptr && accept(*message)) return &message_;
+    if (message == nullptr || !accept(*message)) continue;
+    note_mark();
+    ++ordinal_;
+    return &message_;
   }
   return nullptr;
 }
@@ -51,6 +67,15 @@ bool Recording::accept(const mcap::Message& message) {
   message_ = {row->id, message.sequence, static_cast<std::int64_t>(message.log_time),
               static_cast<std::int64_t>(message.publish_time), message.data};
   return true;
+}
+
+// The message that was read is the first of its chunk when no mark has that chunk and one reads in the order of the
+// file.
+void Recording::note_mark() {
+  const std::uint64_t offset = reader_->record_offset();
+  const bool is_new = marks_.empty() ? ordinal_ > 0 : offset >= marks_.back().offset + mark_distance;
+  if (is_new && offset != chunk_) marks_.push_back({ordinal_, offset});
+  chunk_ = offset;
 }
 
 const wire::TopicRow* Recording::find_row(const mcap::ChannelInfo& channel) const {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "clients/mcap/mapped_file.h"
 #include "clients/mcap/reader.h"
@@ -40,7 +41,12 @@ class Recording {
   const RecordedMessage* next();
 
   // From the first message on again.
-  void rewind();
+  void rewind() { seek(0); }
+
+  // The message that next() gives next has this number: 0, 1, 2, ... in the order of the file. Quick where next() has
+  // been before; from there on it reads its way.
+  void seek(std::uint64_t ordinal);
+  std::uint64_t ordinal() const { return ordinal_; }
 
   // After the end: "" if the file is complete, else one sentence that names the file and says why it ends there.
   const std::string& trouble() const { return trouble_; }
@@ -48,14 +54,24 @@ class Recording {
   const std::string& path() const { return path_; }
 
  private:
+  // A place in the file from which reading can begin: a chunk, or a message outside of chunks.
+  struct Mark {
+    std::uint64_t ordinal = 0;  // of the first message there
+    std::uint64_t offset = 0;
+  };
+
   Recording(std::string path, mcap::MappedFile file);
   bool accept(const mcap::Message& message);
+  void note_mark();
   const wire::TopicRow* find_row(const mcap::ChannelInfo& channel) const;
 
   std::string path_;
   mcap::MappedFile file_;
   std::unique_ptr<mcap::Reader> reader_;
   std::map<mcap::ChannelId, const wire::TopicRow*> rows_;  // null: not ours
+  std::vector<Mark> marks_;  // ordered; so many bytes apart that a long file has few of them
+  std::uint64_t ordinal_ = 0;
+  std::uint64_t chunk_ = 0;  // offset of the last message's chunk
   RecordedMessage message_;
   std::string trouble_;
 };
