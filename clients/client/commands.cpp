@@ -11,11 +11,11 @@ Result<Reply> Connection::get(const std::vector<std::string>& names) {
   return send({.kind = flexcast_COMMAND_GET, .names = names});
 }
 
-Result<Reply> Connection::set(const std::vector<Parameter>& values) {
-  return send({.kind = flexcast_COMMAND_SET, .values = values});
+Result<Reply> Connection::set(const std::vector<Parameter>& values, std::optional<std::uint64_t> if_revision) {
+  return send({.kind = flexcast_COMMAND_SET, .values = values, .expected_revision = if_revision});
 }
 
-Result<Reply> Connection::set_text(std::span<const std::string> assignments) {
+Result<Reply> Connection::set_text(std::span<const std::string> assignments, std::optional<std::uint64_t> if_revision) {
   const auto described = describe();
   if (!described) return described.error();
   std::vector<Parameter> values;
@@ -24,7 +24,7 @@ Result<Reply> Connection::set_text(std::span<const std::string> assignments) {
     if (!parameter) return parameter.error();
     values.push_back(std::move(parameter).value());
   }
-  return set(values);
+  return set(values, if_revision);
 }
 
 Result<Reply> Connection::pause() {

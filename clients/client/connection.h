@@ -56,9 +56,10 @@ class Connection {
   // Parameters. Values of set are checked by the server; a batch takes effect as a whole or not at all.
   Result<Reply> describe();
   Result<Reply> get(const std::vector<std::string>& names = {});  // none: all
-  Result<Reply> set(const std::vector<Parameter>& values);
+  // With a revision they are refused unless it is the parameter revision in force: nobody has changed any in between.
+  Result<Reply> set(const std::vector<Parameter>& values, std::optional<std::uint64_t> if_revision = {});
   // NAME=VALUE as people write it ("gravity=[0, 0, -3]", "solver.linear=pcg"); asks for the descriptors first.
-  Result<Reply> set_text(std::span<const std::string> assignments);
+  Result<Reply> set_text(std::span<const std::string> assignments, std::optional<std::uint64_t> if_revision = {});
 
   // The course of time. The reply to step comes when the steps are done.
   Result<Reply> pause();

@@ -26,7 +26,8 @@ enum class Verb {
   load,
   grab,
   release,
-  status
+  status,
+  doctor
 };
 
 struct Options {
@@ -41,6 +42,7 @@ struct Options {
   client::Vector target{};     // grab
   double stiffness = 0;        // grab
   bool watch = false;
+  std::optional<std::uint64_t> if_revision;  // set: refuse unless this parameter revision is in force
 };
 
 // What to do, or the exit code when help, the version or an explanation of bad usage (code 2) has been printed.

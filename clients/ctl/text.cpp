@@ -34,17 +34,6 @@ std::string table(const std::vector<Row>& rows) {
   return result;
 }
 
-std::string rate_text(double rate) {
-  if (rate == 0.0) return "max";
-  if (rate == 1.0) return "realtime";
-  return fmt::format("{:g}x", rate);
-}
-
-// NaN marks what a scheme does not have.
-std::string number_text(double number, const char* unit = "") {
-  return std::isnan(number) ? "-" : fmt::format("{:.6g}{}", number, unit);
-}
-
 std::string vector_text(const double (&v)[3]) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v[0], v[1], v[2]);
 }
@@ -64,6 +53,16 @@ void add_failure(std::vector<Row>& rows, const flexcast_Failure& f) {
 }
 
 }  // namespace
+
+std::string rate_text(double rate) {
+  if (rate == 0.0) return "max";
+  if (rate == 1.0) return "realtime";
+  return fmt::format("{:g}x", rate);
+}
+
+std::string number_text(double number, const char* unit) {
+  return std::isnan(number) ? "-" : fmt::format("{:.6g}{}", number, unit);
+}
 
 std::string worlds_table(std::span<const flexcast_Status* const> statuses) {
   std::vector<Row> rows{{"WORLD", "STATE", "STEP", "TIME", "RATE", "VERSION"}};
@@ -94,10 +93,11 @@ std::string outcome_line(const client::Reply& reply) {
   return fmt::format("applied at step {} ({:.6g} s): {}", reply.applied_step, reply.time, name_of(reply.state));
 }
 
-std::string status_text(const flexcast_Status& s) {
+std::string status_text(const flexcast_Status& s, std::string_view health) {
   const flexcast_StepReport& r = s.report;
   std::vector<Row> rows{
       {"world", std::string(text(s.world))},
+      {"health", std::string(health)},
       {"state", std::string(name_of(s.state))},
       {"step", std::to_string(r.step)},
       {"time", fmt::format("{:.6g} s", r.time)},

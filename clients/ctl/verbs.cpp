@@ -1,8 +1,9 @@
 #include "clients/ctl/verbs.h"
 
+#include "clients/ctl/doctor.h"
 #include "clients/ctl/json.h"
+#include "clients/ctl/status.h"
 #include "clients/ctl/text.h"
-#include "clients/ctl/watch.h"
 
 namespace flexcast::ctl {
 namespace {
@@ -23,7 +24,7 @@ Result<Reply> execute(const Options& options, client::Connection& connection) {
     case Verb::get:
       return connection.get(options.words);
     case Verb::set:
-      return connection.set_text(options.words);
+      return connection.set_text(options.words, options.if_revision);
     case Verb::reset:
       return connection.reset(options.keep_parameters);
     case Verb::pause:
@@ -46,6 +47,7 @@ Result<Reply> execute(const Options& options, client::Connection& connection) {
       return connection.release(options.particle);
     case Verb::list:
     case Verb::status:
+    case Verb::doctor:
       break;
   }
   return connection.send({.kind = flexcast_COMMAND_STATUS});
@@ -70,9 +72,7 @@ int run_command(const Options& options, client::Connection& connection, std::ost
 }
 
 int run_list(const Options& options, std::ostream& out, std::ostream& err) {
-  const client::ConnectOptions& connect = options.connect;
-  const auto participant =
-      wire::Participant::create({.domain = connect.domain, .profile = connect.profile, .security = connect.security});
+  const auto participant = join(options);
   if (!participant) return fail(err, participant.error().message);
   auto watch = wire::WorldWatch::create(participant.value());
   if (!watch) return fail(err, watch.error().message);
@@ -100,9 +100,10 @@ int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err)
   if (!parsed.options) return parsed.exit_code;
   const Options& options = *parsed.options;
   if (options.verb == Verb::list) return run_list(options, out, err);
+  if (options.verb == Verb::status) return run_status(options, out, err);
+  if (options.verb == Verb::doctor) return run_doctor(options, out, err);
   auto connection = client::Connection::open(options.connect);
   if (!connection) return fail(err, connection.error().message);
-  if (options.verb == Verb::status) return run_status(options, connection.value(), out, err);
   return run_command(options, connection.value(), out, err);
 }
 

@@ -1,13 +1,16 @@
-// status and status --watch.
+// status --watch: one world, until interrupted.
 #pragma once
 
 #include <ostream>
 
-#include "clients/ctl/options.h"
+#include "clients/ctl/interruption.h"
+#include "clients/ctl/status.h"
 
 namespace flexcast::ctl {
 
-// Prints the next status, or with --watch each one until SIGINT or SIGTERM (0). 1 when no status comes.
-int run_status(const Options& options, client::Connection& connection, std::ostream& out, std::ostream& err);
+// On a terminal a view that is drawn again in place, else a line for every status. When the world goes it says so and
+// goes on; when it comes back, too. Returns 0 when it is interrupted.
+int run_watch(const Options& options, WorldFollower& follower, const Interruption& interruption, std::ostream& out,
+              std::ostream& err);
 
 }  // namespace flexcast::ctl

@@ -9,6 +9,7 @@
 // asked for replaces the environment.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct Profile {
   std::string name;    // as asked for; "loopback" or "environment" when nothing was
   std::string config;  // XML for Cyclone (or what CYCLONEDDS_URI holds)
 };
+
+// Bytes of receive buffer that sockets of the built-in profiles ask for; the kernel may grant less.
+inline constexpr std::size_t wanted_receive_buffer = std::size_t{4} << 20;
 
 // "" asks for the default: the environment if CYCLONEDDS_URI is set, else loopback.
 Result<Profile> resolve_profile(const std::string& asked_for);

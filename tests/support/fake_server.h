@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -22,7 +23,8 @@ namespace flexcast::test {
 
 class FakeServer {
  public:
-  explicit FakeServer(std::string world) : world_(std::move(world)) {
+  explicit FakeServer(std::string world, std::uint64_t server_id = 1, std::string version = "0")
+      : world_(std::move(world)), server_id_(server_id), version_(std::move(version)) {
     wire::Owned<flexcast_SceneInfo> scene;
     wire::set_string(scene->world, world_);
     scene->particles = 2;
@@ -35,6 +37,16 @@ class FakeServer {
   std::atomic<int> ignore{0};      // so many commands get lost
   std::atomic<int> deaf{0};        // so many replies get lost
   std::atomic<bool> quiet{false};  // no statuses
+  std::atomic<bool> stuck{false};  // statuses, but the step loop stands still
+
+  // Falls silent, as one that ends on purpose.
+  void say_goodbye() {
+    quiet = true;
+    wire::Owned<flexcast_Status> status;
+    wire::set_string(status->world, world_);
+    const std::scoped_lock lock(status_mutex_);
+    (void)statuses_.dispose(*status);
+  }
 
   const wire::Participant& participant() const { return participant_; }
 
@@ -45,6 +57,7 @@ class FakeServer {
       wire::set_string(sample->world, world_);
       sample->run_id = run_id;
       sample->frame = sample->step = frame;
+      sample->parameter_revision = revision_;
       sample->chunk = chunk;
       sample->chunks = chunks;
       sample->first = 2 * chunk;
@@ -73,15 +86,18 @@ class FakeServer {
   }
 
   void publish_status() {
+    const std::scoped_lock lock(status_mutex_);
+    if (quiet) return;
     wire::Owned<flexcast_Status> status;
     wire::set_string(status->world, world_);
     status->state = state_;
-    status->server_id = 1;
-    status->heartbeat = ++heartbeat_;
+    status->server_id = server_id_;
+    if (!stuck) ++heartbeat_;
+    status->heartbeat = heartbeat_;
     status->report.step = step_;
     status->report.min_j = std::nan("");
     status->rate = 1;
-    wire::set_string(status->version, "0");
+    wire::set_string(status->version, version_);
     (void)statuses_.write(*status);
   }
 
@@ -174,6 +190,10 @@ class FakeServer {
   }
 
   void set(const flexcast_Command& command, flexcast_Reply& reply) {
+    if (command.check_revision && command.expected_revision != revision_) {
+      return reject(reply, "parameter revision " + std::to_string(revision_) + " is in force, not " +
+                               std::to_string(command.expected_revision));
+    }
     std::vector<Parameter> changed;
     for (const auto& value : wire::elements(command.values)) {
       changed.push_back(client::from_wire(value));
@@ -223,6 +243,9 @@ class FakeServer {
   }
 
   std::string world_;
+  std::uint64_t server_id_;
+  std::string version_;
+  std::mutex status_mutex_;  // between statuses and the goodbye
   wire::Participant participant_ = join_test_domain();
   wire::Writer<flexcast_SceneInfo> scenes_ = wire::Writer<flexcast_SceneInfo>::create(participant_).value();
   wire::Writer<flexcast_Status> statuses_ = wire::Writer<flexcast_Status>::create(participant_).value();
@@ -230,7 +253,8 @@ class FakeServer {
   wire::Writer<flexcast_ParticleFrame> frames_ = wire::Writer<flexcast_ParticleFrame>::create(participant_).value();
   wire::Reader<flexcast_Command> commands_ = wire::Reader<flexcast_Command>::create(participant_).value();
   flexcast_WorldState state_ = flexcast_WORLD_RUNNING;
-  std::uint64_t step_ = 0, revision_ = 0, heartbeat_ = 0;
+  std::uint64_t step_ = 0, heartbeat_ = 0;
+  std::atomic<std::uint64_t> revision_{0};
   std::map<std::string, client::Value> values_{{"beam.young", 1e6},
                                                {"gravity", client::Vector{0, 0, -9.81}},
                                                {"solver.linear", std::string("auto")},

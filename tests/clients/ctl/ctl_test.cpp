@@ -3,31 +3,15 @@
 #include <csignal>
 #include <sstream>
 
-#include "clients/ctl/json.h"
-#include "clients/ctl/verbs.h"
+#include "tests/clients/ctl/ctl.h"
 #include "tests/support/fake_server.h"
 
 namespace flexcast::ctl {
 namespace {
 
 using namespace std::chrono_literals;
-using test::FakeServer;
-
-struct Outcome {
-  int exit_code;
-  std::string out, err;
-  Json json() const { return Json::parse(out, nullptr, false); }
-};
-
-Outcome ctl(std::vector<std::string> words) {
-  const std::string domain = std::to_string(test::test_domain());
-  words.insert(words.begin(), {"flexcast-ctl", "--domain", domain, "--profile", "loopback"});
-  std::vector<const char*> arguments;
-  for (const auto& word : words) arguments.push_back(word.c_str());
-  std::ostringstream out, err;
-  const int code = run(static_cast<int>(arguments.size()), arguments.data(), out, err);
-  return {code, out.str(), err.str()};
-}
+using flexcast::test::FakeServer;
+using test::ctl;
 
 class Ctl : public testing::Test {
  protected:
@@ -58,6 +42,15 @@ TEST_F(Ctl, SetReportsStepAndValuesInForce) {
   EXPECT_FALSE(json.contains("reason"));
   const auto text = ctl({"set", "solver.linear=pcg"});
   EXPECT_EQ(text.out, "applied at step 0 (0 s): running\nsolver.linear  pcg\n");
+}
+
+TEST_F(Ctl, SetIfRevisionIsRefusedWhenAnotherOneIsInForce) {
+  EXPECT_EQ(ctl({"set", "beam.young=1", "--if-revision", "0"}).exit_code, 0);
+  const auto refused = ctl({"set", "--if-revision", "0", "beam.young=2"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(refused.err, "flexcast-ctl: rejected: parameter revision 1 is in force, not 0\n");
+  EXPECT_EQ(ctl({"get", "beam.young"}).out, "beam.young  1\n");
+  EXPECT_EQ(ctl({"set", "--if-revision", "1", "beam.young=2", "--json"}).json()["parameter_revision"], 2);
 }
 
 TEST_F(Ctl, RefusedCommandsFailWithTheReasonOnStderr) {
@@ -155,29 +148,32 @@ TEST_F(Ctl, WatchPrintsALineForEveryStatusUntilInterrupted) {
 TEST(CtlAlone, FailsWithoutAServerAndSaysWhatItLookedFor) {
   const auto result = ctl({"--wait", "0.1", "--world", "beam", "pause"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.err, "flexcast-ctl: no world 'beam' on domain " + std::to_string(test::test_domain()) +
+  EXPECT_EQ(result.err, "flexcast-ctl: no world 'beam' on domain " + std::to_string(flexcast::test::test_domain()) +
                             " (profile loopback): waited 0.1 s\n");
   EXPECT_EQ(ctl({"list", "--json"}).out, "{\"worlds\":[]}\n");
 }
 
 TEST(CtlAlone, AnswersBadUsageWithCodeTwo) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{},
-                                                                                     {"fly"},
-                                                                                     {"set"},
-                                                                                     {"load"},
-                                                                                     {"load", "a", "b"},
-                                                                                     {"save"},
-                                                                                     {"restore", "a", "b"},
-                                                                                     {"grab", "1", "0", "0"},
-                                                                                     {"grab", "-1", "0", "0", "0"},
-                                                                                     {"grab", "1", "0", "0", "up"},
-                                                                                     {"release"},
-                                                                                     {"release", "tip"},
-                                                                                     {"run-until"},
-                                                                                     {"step", "0"},
-                                                                                     {"step", "many"},
-                                                                                     {"pause", "now"},
-                                                                                     {"list", "--nonsense"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"fly"},
+                                             {"set"},
+                                             {"load"},
+                                             {"load", "a", "b"},
+                                             {"save"},
+                                             {"restore", "a", "b"},
+                                             {"grab", "1", "0", "0"},
+                                             {"grab", "-1", "0", "0", "0"},
+                                             {"grab", "1", "0", "0", "up"},
+                                             {"release"},
+                                             {"release", "tip"},
+                                             {"run-until"},
+                                             {"step", "0"},
+                                             {"set", "a=1", "--if-revision", "x"},
+                                             {"get", "a", "--if-revision", "1"},
+                                             {"step", "many"},
+                                             {"pause", "now"},
+                                             {"list", "--nonsense"}}) {
     const auto result = ctl(words);
     EXPECT_EQ(result.exit_code, 2) << (words.empty() ? "" : words.back());
     EXPECT_EQ(result.out, "");
