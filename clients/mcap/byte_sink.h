@@ -1,6 +1,8 @@
 // ByteSink: where a writer puts its bytes. MemorySink keeps them, for tests; FileSink (file_sink.h) writes a file.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "clients/mcap/status.h"
@@ -17,6 +19,11 @@ class ByteSink {
 
   // Hands on what is held back, so that it outlives the process.
   virtual Status flush() = 0;
+
+  // Drops everything after the first `bytes` bytes, also what a failed write has left; the next write goes on there.
+  virtual Status cut(std::uint64_t bytes) {
+    return Status::failure("this cannot be cut back to " + std::to_string(bytes) + " bytes");
+  }
 };
 
 class MemorySink final : public ByteSink {
@@ -26,6 +33,10 @@ class MemorySink final : public ByteSink {
     return {};
   }
   Status flush() override { return {}; }
+  Status cut(std::uint64_t bytes) override {
+    bytes_.resize(bytes);
+    return {};
+  }
 
   Bytes bytes() const { return bytes_; }
 

@@ -44,6 +44,13 @@ Status FileSink::flush() {
   return status;
 }
 
+Status FileSink::cut(std::uint64_t bytes) {
+  buffer_.clear();
+  const auto end = static_cast<off_t>(bytes);
+  if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) return system_failure("cut");
+  return {};
+}
+
 Status FileSink::close() {
   if (descriptor_ < 0) return {};
   Status status = flush();

@@ -29,6 +29,8 @@ class FileSink final : public ByteSink {
   // Gives the buffer to the operating system: a killed process loses nothing, a power failure may.
   Status flush() override;
 
+  Status cut(std::uint64_t bytes) override;
+
   // Flushes, waits until the disk has the data and closes the file. Further writes fail.
   Status close();
 

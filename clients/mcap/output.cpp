@@ -21,4 +21,12 @@ Status Output::flush() {
   return status_;
 }
 
+Status Output::cut(std::uint64_t offset, std::uint32_t crc) {
+  if (Status status = sink_.cut(offset); !status) return status;
+  status_ = {};
+  offset_ = offset;
+  crc_ = crc;
+  return {};
+}
+
 }  // namespace flexcast::mcap

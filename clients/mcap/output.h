@@ -18,6 +18,9 @@ class Output {
 
   Status flush();
 
+  // Cuts the sink back to `offset`, where the checksum was `crc`, and forgets the failure.
+  Status cut(std::uint64_t offset, std::uint32_t crc);
+
   // The first failure, or success.
   const Status& status() const { return status_; }
 

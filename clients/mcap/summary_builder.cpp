@@ -105,6 +105,29 @@ void SummaryBuilder::add_metadata(std::uint64_t offset, std::uint64_t bytes, std
   ++totals_.metadata;
 }
 
+std::uint64_t SummaryBuilder::bytes() const {
+  constexpr std::uint64_t kRest = 1024;  // statistics, offsets and footer
+  std::uint64_t bytes = kRest + 10 * totals_.messages_of_channel.size();
+  for (const auto* group : groups()) bytes += group->size();
+  return bytes;
+}
+
+SummaryBuilder::Mark SummaryBuilder::mark() const {
+  Mark mark{.totals = totals_};
+  const auto all = groups();
+  std::transform(all.begin(), all.end(), mark.sizes.begin(), [](const auto* group) { return group->size(); });
+  return mark;
+}
+
+void SummaryBuilder::go_back(const Mark& mark) {
+  schemas_.resize(mark.sizes[0]);
+  channels_.resize(mark.sizes[1]);
+  chunk_indexes_.resize(mark.sizes[2]);
+  attachment_indexes_.resize(mark.sizes[3]);
+  metadata_indexes_.resize(mark.sizes[4]);
+  totals_ = mark.totals;
+}
+
 Status SummaryBuilder::write(Output& output, bool with_crc) const {
   const std::vector<std::byte> statistics_record = statistics();
   const std::pair<Opcode, Bytes> groups[] = {

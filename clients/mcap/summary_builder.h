@@ -1,6 +1,7 @@
 // SummaryBuilder: collects, while a file is written, what its summary will say. Each group is kept as finished records.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -60,11 +61,25 @@ class SummaryBuilder {
 
   const Totals& totals() const { return totals_; }
 
+  // Of what write() will write, roughly and at least.
+  std::uint64_t bytes() const;
+
+  // What the summary says at some moment, to go back to.
+  struct Mark {
+    std::array<std::size_t, 5> sizes{};  // of the groups
+    Totals totals;
+  };
+  Mark mark() const;
+  void go_back(const Mark& mark);
+
   // Summary, summary offsets and footer (with the checksum over them if `with_crc`).
   Status write(Output& output, bool with_crc) const;
 
  private:
   std::vector<std::byte> statistics() const;
+  std::array<const std::vector<std::byte>*, 5> groups() const {
+    return {&schemas_, &channels_, &chunk_indexes_, &attachment_indexes_, &metadata_indexes_};
+  }
 
   std::vector<std::byte> schemas_;
   std::vector<std::byte> channels_;

@@ -8,6 +8,11 @@
 #include "clients/mcap/encoder.h"
 
 namespace flexcast::mcap {
+namespace {
+
+constexpr std::uint64_t kRoom = std::uint64_t{256} * 1024;  // beside the summary, after a cut
+
+}  // namespace
 
 Writer::Writer(ByteSink& sink, WriterOptions options)
     : options_(std::move(options)),
@@ -158,7 +163,33 @@ Status Writer::write_chunk() {
   if (Status status = write_chunk_record(records, place); !status) return status;
   if (Status status = write_message_indexes(place); !status) return status;
   chunk_.clear();
-  return output_.flush();
+  if (Status status = output_.flush(); !status) return status;
+  note_chunk_end();
+  return {};
+}
+
+void Writer::note_chunk_end() {
+  chunk_ends_.push_back({output_.offset(), output_.crc(), summary_.bytes(), summary_.mark()});
+  sound_bytes_ = output_.offset();
+  const auto leaves_room = [this](const ChunkEnd& end) {
+    return end.offset + end.summary_bytes + kRoom <= sound_bytes_;
+  };
+  while (chunk_ends_.size() > 1 && leaves_room(chunk_ends_[1])) chunk_ends_.pop_front();
+}
+
+Status Writer::cut_back(std::uint64_t room) {
+  const Status failure = output_.status() ? Status::failure("there is nothing to cut back") : output_.status();
+  while (chunk_ends_.size() > 1 && chunk_ends_.back().offset + chunk_ends_.back().summary_bytes + room > sound_bytes_) {
+    chunk_ends_.pop_back();
+  }
+  if (chunk_ends_.empty()) return failure;
+  const ChunkEnd end = chunk_ends_.back();
+  chunk_ends_.pop_back();  // the next call goes further back
+  if (Status status = output_.cut(end.offset, end.crc); !status) return failure;
+  chunk_.clear();
+  summary_.go_back(end.summary);
+  closed_ = false;
+  return {};
 }
 
 Status Writer::write_chunk_record(Bytes records, ChunkPlace& place) {

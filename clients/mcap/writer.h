@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,19 @@ class Writer {
   // Closes the chunk, writes the summary and the end of the file and flushes the sink. Every later call fails.
   Status close();
 
+  // After a failure of the sink: cuts the file back to the end of a whole chunk, so that what is left, `room` bytes
+  // more (for metadata) and the summary need no more than what the sink has taken before it failed. The open chunk and
+  // those behind are gone, and with them attachments and metadata written after that chunk; totals() says what is left.
+  // Metadata can be added again, and close() completes the file. When that fails, too, the next call cuts further back.
+  // Fails when there is nothing left to go back to, or the sink cannot be cut.
+  Status cut_back(std::uint64_t room);
+
+  // How many messages will be left at least after cut_back() with a `room` of 256 KiB at most.
+  std::uint64_t safe_messages() const { return chunk_ends_.empty() ? 0 : chunk_ends_.front().summary.totals.messages; }
+
+  // What the file would take if it were closed now, with everything uncompressed that is not written yet.
+  std::uint64_t bytes_when_closed() const { return output_.offset() + chunk_.records().size() + summary_.bytes(); }
+
   // What the sink has got so far, without the open chunk.
   std::uint64_t bytes_written() const { return output_.offset(); }
 
@@ -86,7 +100,16 @@ class Writer {
   const Totals& totals() const { return summary_.totals(); }
 
  private:
+  // The state of the file at the end of a chunk.
+  struct ChunkEnd {
+    std::uint64_t offset = 0;
+    std::uint32_t crc = 0;
+    std::uint64_t summary_bytes = 0;
+    SummaryBuilder::Mark summary;
+  };
+
   Status ready() const;
+  void note_chunk_end();
   Status add_definition(Bytes record);
   bool is_due(Time now) const;
   Status write_chunk();
@@ -99,6 +122,8 @@ class Writer {
   Compressor compressor_;
   SummaryBuilder summary_;
   std::vector<std::byte> scratch_;
+  std::deque<ChunkEnd> chunk_ends_;  // the last ones, as many as cut_back() may need
+  std::uint64_t sound_bytes_ = 0;    // the sink has taken them
   bool closed_ = false;
 };
 

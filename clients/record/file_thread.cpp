@@ -32,11 +32,28 @@ void FileThread::run() {
   if (status_) return;
   failed_ = true;
   queue_.close();
+  discard_rest();
+}
+
+void FileThread::discard_rest() {
+  while (const auto item = queue_.pop(std::chrono::nanoseconds(0))) note_unwritten(*item);
+}
+
+void FileThread::note_unwritten(const Item& item) {
+  const auto* message = std::get_if<Message>(&item);
+  if (!message || message->topic != wire::TopicId::frames) return;
+  auto head = wire::peek_frame_head(message->bytes);
+  if (!head) return;
+  head.value().world = {};  // lives as long as the item
+  unwritten_.push_back(head.value());
 }
 
 mcap::Status FileThread::write_next() {
-  if (const auto item = queue_.pop(idle_period)) return file_.write(*item);
-  return file_.flush_if_older(system_time());
+  const auto item = queue_.pop(idle_period);
+  if (!item) return file_.flush_if_older(system_time());
+  mcap::Status status = file_.write(*item);
+  if (!status) note_unwritten(*item);
+  return status;
 }
 
 }  // namespace flexcast::record

@@ -5,16 +5,18 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "clients/record/item_queue.h"
-#include "clients/record/recording_file.h"
+#include "clients/record/item_sink.h"
+#include "idl/wire/frame_head.h"
 
 namespace flexcast::record {
 
 class FileThread {
  public:
   // Both must outlive this object. The file belongs to the thread until finish() has returned.
-  FileThread(ItemQueue& queue, RecordingFile& file) : queue_(queue), file_(file) {}
+  FileThread(ItemQueue& queue, ItemSink& file) : queue_(queue), file_(file) {}
   ~FileThread() { (void)finish(); }
   FileThread(const FileThread&) = delete;
   FileThread& operator=(const FileThread&) = delete;
@@ -28,13 +30,19 @@ class FileThread {
   bool failed() const { return failed_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
 
+  // After finish(): the frames (each chunk of them) that were in the queue when the file had failed already.
+  const std::vector<wire::FrameHead>& unwritten() const { return unwritten_; }
+
  private:
   void run();
   mcap::Status write_next();
+  void discard_rest();
+  void note_unwritten(const Item& item);
 
   ItemQueue& queue_;
-  RecordingFile& file_;
-  mcap::Status status_;  // of the thread, until it is joined
+  ItemSink& file_;
+  mcap::Status status_;                     // of the thread, until it is joined
+  std::vector<wire::FrameHead> unwritten_;  // the same
   std::atomic<bool> failed_ = false;
   std::atomic<std::uint64_t> bytes_written_ = 0;
   std::thread thread_;

@@ -1,5 +1,6 @@
 #include "clients/record/frame_ranges.h"
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
 
@@ -20,6 +21,40 @@ void FrameRanges::add(std::uint64_t frame) {
   } else {
     ranges_.emplace(frame, last);
   }
+}
+
+void FrameRanges::add(const FrameRange& range) {
+  std::uint64_t first = range.first, last = range.last;
+  auto at = ranges_.upper_bound(first);
+  if (at != ranges_.begin()) {
+    const auto before = std::prev(at);
+    if (before->second >= first || before->second + 1 == first) at = before;
+  }
+  while (at != ranges_.end() && (at->first <= last || at->first - 1 == last)) {
+    first = std::min(first, at->first);
+    last = std::max(last, at->second);
+    size_ -= at->second - at->first + 1;
+    at = ranges_.erase(at);
+  }
+  ranges_.emplace(first, last);
+  size_ += last - first + 1;
+}
+
+void FrameRanges::remove(std::uint64_t frame) {
+  const auto next = ranges_.upper_bound(frame);
+  if (next == ranges_.begin()) return;
+  const auto [first, last] = *std::prev(next);
+  if (last < frame) return;
+  ranges_.erase(first);
+  --size_;
+  if (first < frame) ranges_.emplace(first, frame - 1);
+  if (frame < last) ranges_.emplace(frame + 1, last);
+}
+
+std::vector<FrameRange> FrameRanges::ranges() const {
+  std::vector<FrameRange> list;
+  for (const auto& [first, last] : ranges_) list.push_back({first, last});
+  return list;
 }
 
 FrameRanges::Stretch FrameRanges::stretch(std::uint64_t frame) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace flexcast::record {
 
@@ -16,12 +17,16 @@ struct FrameRange {
 class FrameRanges {
  public:
   void add(std::uint64_t frame);
+  void add(const FrameRange& range);
+  void remove(std::uint64_t frame);
 
   bool contains(std::uint64_t frame) const { return stretch(frame).contained; }
   std::uint64_t size() const { return size_; }  // frames, not ranges
   bool empty() const { return ranges_.empty(); }
   std::uint64_t first() const { return ranges_.begin()->first; }   // of a set that is not empty
   std::uint64_t last() const { return ranges_.rbegin()->second; }  // the same
+
+  std::vector<FrameRange> ranges() const;  // ordered, neither overlapping nor adjacent
 
   // Whether `frame` is in the set, and up to which number the answer stays the same.
   struct Stretch {

@@ -1,10 +1,23 @@
 #include "clients/record/gap_ledger.h"
 
+#include <algorithm>
+
 namespace flexcast::record {
 namespace {
 
 // Of 1 MiB each; a larger number is no frame.
 constexpr std::uint32_t most_chunks = 65536;
+
+// Runs that no frame came from yet: a status names the newest ranges again and again.
+constexpr std::size_t most_early_runs = 16;
+
+std::vector<FrameRange> sensible_ranges(std::span<const std::uint64_t> numbers) {
+  std::vector<FrameRange> ranges;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+    if (numbers[i] <= numbers[i + 1]) ranges.push_back({numbers[i], numbers[i + 1]});
+  }
+  return ranges;
+}
 
 }  // namespace
 
@@ -22,7 +35,15 @@ RunLedger& GapLedger::open(const wire::FrameHead& head, std::uint64_t writer) {
     if (runs_[--current_].run_id() == head.run_id) return runs_[current_];
   }
   current_ = runs_.size();
-  return runs_.emplace_back(head.run_id, watched, head.frame);
+  RunLedger& run = runs_.emplace_back(head.run_id, watched, head.frame);
+  for (const FrameRange& range : std::exchange(early_[head.run_id], {})) run.note_unpublished(range);
+  early_.erase(head.run_id);
+  return run;
+}
+
+void GapLedger::resume() {
+  paused_ = false;
+  for (RunLedger& run : runs_) run.resume();
 }
 
 Verdict GapLedger::judge(const wire::FrameHead& head) const {
@@ -30,6 +51,8 @@ Verdict GapLedger::judge(const wire::FrameHead& head) const {
   const RunLedger* run = find(head.run_id);
   if (run && run->is_repeated(head)) return Verdict::repeated;
   const bool is_new = !run || run->is_new(head.frame);
+  if (run && run->is_skipped(head.frame)) return Verdict::paused;
+  if (is_new && paused_ && !closed_) return Verdict::paused;
   if (is_full() || (is_new && (closed_ || most_frames_ - frames_ <= in_progress()))) return Verdict::beyond;
   return Verdict::record;
 }
@@ -40,6 +63,30 @@ void GapLedger::add(const wire::FrameHead& head, std::uint64_t writer) {
 
 void GapLedger::drop(const wire::FrameHead& head, std::uint64_t writer) {
   open(head, writer).drop(head);
+}
+
+void GapLedger::skip(const wire::FrameHead& head, std::uint64_t writer) {
+  open(head, writer).skip(head);
+}
+
+void GapLedger::note_unpublished(std::uint64_t run_id, std::span<const std::uint64_t> numbers) {
+  const std::vector<FrameRange> ranges = sensible_ranges(numbers);
+  if (ranges.empty()) return;
+  if (RunLedger* run = find(run_id)) {
+    for (const FrameRange& range : ranges) run->note_unpublished(range);
+  } else if (early_.size() < most_early_runs || early_.contains(run_id)) {
+    early_[run_id] = ranges;
+  }
+}
+
+void GapLedger::lose(const wire::FrameHead& head) {
+  RunLedger* run = find(head.run_id);
+  if (run && run->lose(head)) --frames_;
+}
+
+bool GapLedger::has_lost() const {
+  const std::vector<Gap> all = gaps();
+  return std::any_of(all.begin(), all.end(), [](const Gap& gap) { return gap.cause == GapCause::lost; });
 }
 
 std::uint64_t GapLedger::missing() const {
@@ -59,6 +106,15 @@ std::vector<Gap> GapLedger::gaps() const {
   for (const RunLedger& run : runs_) {
     const std::vector<Gap> gaps = run.gaps();
     list.insert(list.end(), gaps.begin(), gaps.end());
+  }
+  return list;
+}
+
+std::vector<Pause> GapLedger::pauses() const {
+  std::vector<Pause> list;
+  for (const RunLedger& run : runs_) {
+    const std::vector<Pause> pauses = run.pauses();
+    list.insert(list.end(), pauses.begin(), pauses.end());
   }
   return list;
 }

@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <map>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "clients/record/run_ledger.h"
@@ -16,6 +19,7 @@ enum class Verdict {
   record,    // then tell add() or drop()
   repeated,  // not newer than what there is: the server sends the newest frame again for late joiners
   beyond,    // a new frame, but there are enough
+  paused,    // the recorder is paused, or was when the frame began: then tell skip()
   invalid,   // chunk numbers that make no sense
 };
 
@@ -29,36 +33,56 @@ class GapLedger {
   // No new frames from now on; those in progress may become complete.
   void close() { closed_ = true; }
 
+  // While paused no new frames are recorded; those in progress may become complete.
+  void pause() { paused_ = true; }
+  void resume();
+  bool is_paused() const { return paused_; }
+
   Verdict judge(const wire::FrameHead& head) const;
 
   // `writer`: who sent it, as in wire::SampleInfo. Of a run of a writer that has sent frames before, frame 0 should
   // come; of the first run of another one (the recorder or the server has just come) it need not.
   void add(const wire::FrameHead& head, std::uint64_t writer);
   void drop(const wire::FrameHead& head, std::uint64_t writer);
+  void skip(const wire::FrameHead& head, std::uint64_t writer);
+
+  // What a status says: `ranges` are first, last, first, last, ... of frames that the server did not publish.
+  void note_unpublished(std::uint64_t run_id, std::span<const std::uint64_t> ranges);
+
+  // Takes back a chunk given to add(): the file could not take it.
+  void lose(const wire::FrameHead& head);
 
   bool is_full() const { return frames_ >= most_frames_; }
   std::uint64_t frames() const { return frames_; }  // complete ones
   std::uint64_t missing() const;                    // without those in progress
   std::uint64_t in_progress() const { return runs_.empty() ? 0 : runs_[current_].in_progress(); }
 
+  bool has_lost() const;  // frames that are missing, nobody knows why
+
   // Of the run that frames came from last; 0 before the first.
   std::uint64_t run_id() const { return runs_.empty() ? 0 : runs_[current_].run_id(); }
   std::uint64_t next_frame() const { return runs_.empty() ? 0 : runs_[current_].next_frame(); }
 
+  std::uint64_t contiguous_end() const { return runs_.empty() ? 0 : runs_[current_].contiguous_end(); }
+
   // In the order in which they were met.
   std::vector<RunSummary> runs() const;
   std::vector<Gap> gaps() const;
+  std::vector<Pause> pauses() const;
 
  private:
   const RunLedger* find(std::uint64_t run_id) const;
+  RunLedger* find(std::uint64_t run_id) { return const_cast<RunLedger*>(std::as_const(*this).find(run_id)); }
   RunLedger& open(const wire::FrameHead& head, std::uint64_t writer);
 
   std::uint64_t most_frames_;
   bool closed_ = false;
+  bool paused_ = false;
   std::uint64_t frames_ = 0;
   std::deque<RunLedger> runs_;
   std::size_t current_ = 0;  // in runs_
   std::set<std::uint64_t> writers_;
+  std::map<std::uint64_t, std::vector<FrameRange>> early_;  // unpublished frames of runs that no frame came from yet
 };
 
 }  // namespace flexcast::record

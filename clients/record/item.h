@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "idl/wire/raw_reader.h"
 #include "idl/wire/topics.h"
 
 namespace flexcast::record {
@@ -25,6 +26,10 @@ struct Attachment {
   std::int64_t log_time = 0;  // ns since 1970
   std::vector<std::byte> bytes;
 };
+
+inline Message make_message(wire::TopicId topic, std::uint32_t sequence, const wire::RawSample& sample) {
+  return {topic, sequence, sample.receive_time, sample.info.source_time, {sample.bytes.begin(), sample.bytes.end()}};
+}
 
 using Item = std::variant<Message, Attachment>;
 

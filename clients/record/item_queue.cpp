@@ -14,11 +14,12 @@ bool is_frame(const Item& item) {
 
 }  // namespace
 
-Pushed ItemQueue::push(Item item) {
+Pushed ItemQueue::push(Item&& item) {
   const std::size_t size = size_of(item);
   const std::size_t limit = is_frame(item) ? capacity_ - capacity_ / 16 : capacity_;
   {
     const std::scoped_lock lock(mutex_);
+    popped_ = false;
     if (closed_) return Pushed::closed;
     if (!items_.empty() && bytes_ + size > limit) return Pushed::full;
     bytes_ += size;
@@ -35,7 +36,15 @@ std::optional<Item> ItemQueue::pop(std::chrono::nanoseconds timeout) {
   std::optional<Item> item = std::move(items_.front());
   items_.pop_front();
   bytes_ -= size_of(*item);
+  popped_ = true;
+  lock.unlock();
+  room_.notify_one();
   return item;
+}
+
+void ItemQueue::wait_for_room(std::chrono::nanoseconds timeout) {
+  std::unique_lock lock(mutex_);
+  room_.wait_for(lock, timeout, [this] { return closed_ || popped_; });
 }
 
 void ItemQueue::close() {
@@ -44,6 +53,7 @@ void ItemQueue::close() {
     closed_ = true;
   }
   changed_.notify_all();
+  room_.notify_all();
 }
 
 bool ItemQueue::finished() const {

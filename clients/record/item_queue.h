@@ -1,5 +1,5 @@
 // ItemQueue: from the receiving thread to the file's thread, bounded in bytes. When the disk is too slow it is full;
-// the receiver then drops what comes and counts it.
+// the receiver then drops what comes and counts it, or waits for room if the server waits for it.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,11 @@ class ItemQueue {
   // Frames leave a sixteenth free, so that the few small messages beside them are not dropped with them.
   explicit ItemQueue(std::size_t capacity_bytes) : capacity_(capacity_bytes) {}
 
-  // An empty queue takes an item of any size.
-  Pushed push(Item item);
+  // An empty queue takes an item of any size. One that is not taken is left as it is.
+  Pushed push(Item&& item);
+
+  // Waits until something was popped since the last push; at most for `timeout`.
+  void wait_for_room(std::chrono::nanoseconds timeout);
 
   // The oldest item; none if there was none within the timeout or the queue is finished.
   std::optional<Item> pop(std::chrono::nanoseconds timeout);
@@ -36,9 +39,11 @@ class ItemQueue {
   const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
+  std::condition_variable room_;
   std::deque<Item> items_;
   std::size_t bytes_ = 0;
   bool closed_ = false;
+  bool popped_ = false;  // since the last push
 };
 
 }  // namespace flexcast::record

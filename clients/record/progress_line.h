@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "clients/record/receiver.h"
+#include "clients/record/reception.h"
 
 namespace flexcast::record {
 

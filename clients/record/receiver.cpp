@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "clients/record/message_head.h"
+#include "idl/wire/decode.h"
 #include "idl/wire/fill.h"
 
 namespace flexcast::record {
@@ -13,18 +13,15 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t batch_samples = 64;
-constexpr std::size_t batch_bytes = std::size_t{64} << 20;  // copied before they go to the queue
+constexpr std::size_t batch_bytes = std::size_t{64} << 20;  // taken before they go to the queue
 constexpr auto longest_wait = 100ms;
-constexpr auto finishing_time = 500ms;  // for the rest of a frame
+constexpr auto finishing_time = 500ms;  // for the rest of a frame, or one more status
 constexpr auto finishing_period = 5ms;
+constexpr auto room_time = 2s;  // for the disk to take what is in hand when the end has come
 
 std::int64_t system_time() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-Message make_message(wire::TopicId topic, std::uint32_t sequence, const wire::RawSample& sample) {
-  return {topic, sequence, sample.receive_time, sample.info.source_time, {sample.bytes.begin(), sample.bytes.end()}};
 }
 
 }  // namespace
@@ -57,7 +54,9 @@ Receiver::Receiver(const Subscriptions& subscriptions, ItemQueue& queue, std::st
       wait_set_(std::move(wait_set)),
       ledger_(limits.frames) {}
 
-void Receiver::start() {
+void Receiver::start(std::function<void(const Progress&)> after_batch) {
+  set_paused(paused_asked_);
+  after_batch_ = std::move(after_batch);
   thread_ = std::thread(&Receiver::run, this);
 }
 
@@ -67,19 +66,48 @@ void Receiver::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
+void Receiver::ask_paused(bool paused) {
+  paused_asked_ = paused;
+  guard_.trigger();
+}
+
+void Receiver::set_paused(bool paused) {
+  const std::scoped_lock lock(mutex_);
+  if (paused == ledger_.is_paused()) return;
+  if (paused) {
+    ledger_.pause();
+  } else {
+    ledger_.resume();
+  }
+}
+
+bool Receiver::is_paused() const {
+  const std::scoped_lock lock(mutex_);
+  return ledger_.is_paused();
+}
+
 Progress Receiver::progress() const {
   const std::scoped_lock lock(mutex_);
   const auto dropped = std::accumulate(reception_.dropped.begin(), reception_.dropped.end(), std::uint64_t{0},
                                        [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
-  return {ledger_.run_id(), ledger_.next_frame(), ledger_.frames(), ledger_.missing(), dropped};
+  return {ledger_.run_id(), ledger_.next_frame(), ledger_.contiguous_end(),
+          ledger_.frames(), ledger_.missing(),    dropped};
 }
 
 Reception Receiver::reception() const {
+  const std::scoped_lock lock(mutex_);
   Reception reception = reception_;
   reception.runs = ledger_.runs();
   reception.gaps = ledger_.gaps();
-  if (first_frame_) reception.seconds = std::chrono::duration<double>(end_time_ - *first_frame_).count();
+  reception.pauses = ledger_.pauses();
+  const auto end = end_time_.value_or(Clock::now());
+  if (first_frame_) reception.seconds = std::chrono::duration<double>(end - *first_frame_).count();
   return reception;
+}
+
+void Receiver::lose(const wire::FrameHead& head) {
+  const std::scoped_lock lock(mutex_);
+  ledger_.lose(head);
 }
 
 void Receiver::run() {
@@ -89,14 +117,19 @@ void Receiver::run() {
       timeout = std::min<std::chrono::nanoseconds>(timeout, *first_frame_ + *limits_.duration - Clock::now());
     }
     wait_set_.wait(std::max(timeout, 0ns));
+    guard_.reset();
+    const bool paused = paused_asked_;
     receive();
+    set_paused(paused);
   }
   if (reception_.end != EndReason::failed) finish_frames();
+  const std::scoped_lock lock(mutex_);
   end_time_ = Clock::now();
   ended_ = true;
 }
 
 bool Receiver::at_end() {
+  const std::scoped_lock lock(mutex_);
   if (reception_.end == EndReason::failed) return true;
   if (ledger_.is_full()) {
     reception_.end = EndReason::frames;
@@ -114,11 +147,17 @@ void Receiver::finish_frames() {
     const std::scoped_lock lock(mutex_);
     ledger_.close();
   }
-  const auto latest = Clock::now() + finishing_time;
-  while (ledger_.in_progress() > 0 && reception_.end != EndReason::failed && Clock::now() < latest) {
+  const std::uint64_t statuses = statuses_;
+  for (const auto latest = Clock::now() + finishing_time; waits_for_more(statuses) && Clock::now() < latest;) {
     std::this_thread::sleep_for(finishing_period);
     receive();
   }
+}
+
+bool Receiver::waits_for_more(std::uint64_t statuses_before) const {
+  const std::scoped_lock lock(mutex_);
+  if (reception_.end == EndReason::failed) return false;
+  return ledger_.in_progress() > 0 || (statuses_ == statuses_before && ledger_.has_lost());
 }
 
 void Receiver::receive() {
@@ -135,10 +174,12 @@ void Receiver::receive() {
 void Receiver::receive_scenes() {
   const auto samples = subscriptions_.scenes().take();
   if (!samples) return fail(samples.error().message);
-  const std::scoped_lock lock(mutex_);
   for (const auto [scene, info] : samples.value()) {
     if (!info.valid || wire::text(scene.world) != world_) continue;
-    reception_.server_version = wire::text(scene.version);
+    {
+      const std::scoped_lock lock(mutex_);
+      reception_.server_version = wire::text(scene.version);
+    }
     for (Attachment& file : scene_files_.take_new(scene, system_time())) push(wire::TopicId::scene, std::move(file));
   }
 }
@@ -146,86 +187,95 @@ void Receiver::receive_scenes() {
 bool Receiver::belongs(wire::TopicId topic, const wire::RawSample& sample) {
   if (!sample.info.valid) return false;  // the end of an instance: no data
   const auto world = peek_world(topic, sample.bytes);
-  if (!world) ++reception_.unreadable;
-  return world == world_;
+  if (world) return world == world_;
+  const std::scoped_lock lock(mutex_);
+  ++reception_.unreadable;
+  return false;
 }
 
 void Receiver::receive_messages(const wire::RawReader& reader) {
   const wire::TopicId topic = reader.row().id;
-  const std::scoped_lock lock(mutex_);
-  const auto taken = reader.take_raw(
-      [&](const wire::RawSample& sample) {
-        // A number is used up by a message that is dropped, too: it shows.
-        if (belongs(topic, sample)) push(topic, make_message(topic, sequences_[topic]++, sample));
-      },
-      batch_samples);
-  if (!taken) fail(taken.error().message);
+  const auto receive_one = [&](const wire::RawSample& sample) {
+    if (!belongs(topic, sample)) return;
+    if (topic == wire::TopicId::status) note_status(sample);
+    // A number is used up by a message that is dropped, too: it shows.
+    push(topic, make_message(topic, sequences_[topic]++, sample));
+  };
+  if (const auto taken = reader.take_raw(receive_one, batch_samples); !taken) fail(taken.error().message);
 }
 
-// DDS keeps the order of the samples of each chunk number only, and gives one chunk number after the other: takes all
-// there is and puts it in order.
-void Receiver::receive_frames(const wire::RawReader& reader) {
-  arrivals_.clear();
-  arrived_bytes_ = 0;
+void Receiver::note_status(const wire::RawSample& sample) {
+  ++statuses_;
+  const auto status = wire::decode<flexcast_Status>(sample.bytes);
+  if (!status) return;
   const std::scoped_lock lock(mutex_);
-  for (std::size_t count = batch_samples; count == batch_samples && arrived_bytes_ < batch_bytes;) {
-    const auto taken = reader.take_raw([&](const wire::RawSample& sample) { note_arrival(sample); }, batch_samples);
+  const auto& unpublished = status.value()->unpublished;
+  ledger_.note_unpublished(status.value()->run_id, {unpublished._buffer, unpublished._length});
+}
+
+// Takes all there is and puts it in order.
+void Receiver::receive_frames(const wire::RawReader& reader) {
+  batch_.clear();
+  const auto receive_one = [&](const wire::RawSample& sample) {
+    if (!belongs(wire::TopicId::frames, sample) || batch_.add(sample)) return;
+    const std::scoped_lock lock(mutex_);
+    ++reception_.unreadable;
+  };
+  for (std::size_t count = batch_samples; count == batch_samples && batch_.bytes() < batch_bytes;) {
+    const auto taken = reader.take_raw(receive_one, batch_samples);
     if (!taken) return fail(taken.error().message);
     count = taken.value();
   }
-  sort_arrivals();
-  for (Arrival& arrival : arrivals_) admit(arrival);
-  arrivals_.clear();
+  if (batch_.arrivals().empty()) return;
+  batch_.sort(progress().run_id);
+  for (FrameBatch::Arrival& arrival : batch_.arrivals()) admit(arrival);
+  batch_.clear();
+  after_batch_(progress());
 }
 
-void Receiver::note_arrival(const wire::RawSample& sample) {
-  if (!belongs(wire::TopicId::frames, sample)) return;
-  auto head = wire::peek_frame_head(sample.bytes);
-  if (!head) {
-    ++reception_.unreadable;
-    return;
+void Receiver::admit(FrameBatch::Arrival& arrival) {
+  {
+    const std::scoped_lock lock(mutex_);
+    const Verdict verdict = ledger_.judge(arrival.head);
+    if (verdict == Verdict::invalid) ++reception_.unreadable;
+    if (verdict == Verdict::paused) ledger_.skip(arrival.head, arrival.writer);
+    if (verdict != Verdict::record) return;
+    if (!first_frame_) first_frame_ = Clock::now();
   }
-  head.value().world = {};  // lives as long as the sample's bytes
-  const auto sequence = static_cast<std::uint32_t>(head.value().frame);
-  arrivals_.push_back({head.value(), sample.info.writer, make_message(wire::TopicId::frames, sequence, sample)});
-  arrived_bytes_ += sample.bytes.size();
+  record(arrival);
 }
 
-void Receiver::sort_arrivals() {
-  std::vector<std::uint64_t> runs{ledger_.run_id()};  // in the order in which they are met
-  const auto rank = [&](std::uint64_t run_id) { return std::find(runs.begin(), runs.end(), run_id) - runs.begin(); };
-  for (const Arrival& arrival : arrivals_) {
-    if (rank(arrival.head.run_id) == std::ssize(runs)) runs.push_back(arrival.head.run_id);
-  }
-  const auto earlier = [&](const Arrival& a, const Arrival& b) {
-    return std::tuple(rank(a.head.run_id), a.head.frame, a.head.chunk) <
-           std::tuple(rank(b.head.run_id), b.head.frame, b.head.chunk);
-  };
-  if (!std::is_sorted(arrivals_.begin(), arrivals_.end(), earlier)) {
-    std::stable_sort(arrivals_.begin(), arrivals_.end(), earlier);
-  }
+void Receiver::record(FrameBatch::Arrival& arrival) {
+  const Pushed pushed = push(wire::TopicId::frames, std::move(arrival.message));
+  const std::scoped_lock lock(mutex_);
+  if (pushed == Pushed::full) return ledger_.drop(arrival.head, arrival.writer);
+  ledger_.add(arrival.head, arrival.writer);
+  if (pushed == Pushed::closed) ledger_.lose(arrival.head);
 }
 
-void Receiver::admit(Arrival& arrival) {
-  const Verdict verdict = ledger_.judge(arrival.head);
-  if (verdict == Verdict::invalid) ++reception_.unreadable;
-  if (verdict != Verdict::record) return;
-  if (!first_frame_) first_frame_ = Clock::now();
-  if (push(wire::TopicId::frames, std::move(arrival.message))) {
-    ledger_.add(arrival.head, arrival.writer);
-  } else {
-    ledger_.drop(arrival.head, arrival.writer);
+Pushed Receiver::push(wire::TopicId topic, Item item) {
+  Pushed pushed = queue_.push(std::move(item));
+  while (pushed == Pushed::full && may_wait_for_room()) {
+    queue_.wait_for_room(longest_wait);
+    pushed = queue_.push(std::move(item));
   }
-}
-
-bool Receiver::push(wire::TopicId topic, Item item) {
-  const Pushed pushed = queue_.push(std::move(item));
-  if (pushed == Pushed::full) ++reception_.dropped[topic];
   if (pushed == Pushed::closed) fail("");
-  return pushed == Pushed::taken;
+  if (pushed == Pushed::full) {
+    const std::scoped_lock lock(mutex_);
+    ++reception_.dropped[topic];
+  }
+  return pushed;
+}
+
+bool Receiver::may_wait_for_room() {
+  if (!lockstep_) return false;
+  if (!stopping_) return true;
+  if (!latest_room_) latest_room_ = Clock::now() + room_time;
+  return Clock::now() < *latest_room_;
 }
 
 void Receiver::fail(const std::string& error) {
+  const std::scoped_lock lock(mutex_);
   if (reception_.end == EndReason::failed) return;
   reception_.end = EndReason::failed;
   reception_.error = error;

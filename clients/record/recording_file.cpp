@@ -24,13 +24,46 @@ mcap::Status RecordingFile::add_channels() {
 }
 
 mcap::Status RecordingFile::write(const Item& item) {
-  if (const auto* attachment = std::get_if<Attachment>(&item)) {
-    const auto time = static_cast<mcap::Time>(attachment->log_time);
-    return writer_.add_attachment(attachment->name, attachment->media_type, time, time, attachment->bytes);
+  if (const auto* file = std::get_if<Attachment>(&item)) {
+    return write_attachment(file->name, file->media_type, file->log_time, file->bytes);
   }
-  const auto& message = std::get<Message>(item);
-  return writer_.write_message(channels_.at(message.topic), message.sequence, static_cast<mcap::Time>(message.log_time),
-                               static_cast<mcap::Time>(message.publish_time), message.bytes);
+  return write_message(std::get<Message>(item));
+}
+
+mcap::Status RecordingFile::write_message(wire::TopicId topic, std::uint32_t sequence, std::int64_t log_time,
+                                          std::int64_t publish_time, mcap::Bytes bytes) {
+  if (topic == wire::TopicId::frames) note_frame(bytes);
+  return writer_.write_message(channels_.at(topic), sequence, static_cast<mcap::Time>(log_time),
+                               static_cast<mcap::Time>(publish_time), bytes);
+}
+
+mcap::Status RecordingFile::write_attachment(std::string_view name, std::string_view media_type, std::int64_t log_time,
+                                             mcap::Bytes bytes) {
+  const auto time = static_cast<mcap::Time>(log_time);
+  return writer_.add_attachment(name, media_type, time, time, bytes);
+}
+
+void RecordingFile::note_frame(mcap::Bytes bytes) {
+  auto head = wire::peek_frame_head(bytes);
+  if (!head) return;
+  head.value().world = {};  // lives as long as the bytes
+  while (!recent_.empty() && recent_.front().message < writer_.safe_messages()) recent_.pop_front();
+  recent_.push_back({messages(), head.value()});
+}
+
+mcap::Result<std::vector<wire::FrameHead>> RecordingFile::cut_back(std::uint64_t room) {
+  if (mcap::Status status = writer_.cut_back(room); !status) return status;
+  std::vector<wire::FrameHead> cut;
+  for (; !recent_.empty() && recent_.back().message >= messages(); recent_.pop_back()) {
+    cut.push_back(recent_.back().head);
+  }
+  return cut;
+}
+
+std::vector<wire::FrameHead> RecordingFile::frames_before_first_chunk() const {
+  std::vector<wire::FrameHead> heads;
+  for (const RecentFrame& frame : recent_) heads.push_back(frame.head);
+  return heads;
 }
 
 }  // namespace flexcast::record

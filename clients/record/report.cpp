@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -19,6 +20,8 @@ std::string_view name_of(EndReason reason) {
       return "duration";
     case EndReason::failed:
       return "failed";
+    case EndReason::recovered:
+      return "recovered";
   }
   return "unknown";
 }
@@ -28,12 +31,16 @@ constexpr std::size_t most_gap_lines = 100;
 // What a cause means, for people.
 std::string_view explain(GapCause cause) {
   switch (cause) {
-    case GapCause::not_received:
-      return "not published, or lost on the way";
+    case GapCause::unpublished:
+      return "the server did not publish them";
+    case GapCause::lost:
+      return "lost on the way";
     case GapCause::incomplete:
       return "some of their chunks are missing";
     case GapCause::queue:
       return "the disk was too slow";
+    case GapCause::disk:
+      return "the file could not take them";
   }
   return "";
 }
@@ -42,9 +49,12 @@ std::string count(std::uint64_t n, std::string_view noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
+std::string range_text(std::uint64_t first, std::uint64_t last) {
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {}..{}", first, last);
+}
+
 std::string gap_line(const Gap& gap) {
-  const std::string frames =
-      gap.first == gap.last ? fmt::format("frame {}", gap.first) : fmt::format("frames {}..{}", gap.first, gap.last);
+  const std::string frames = range_text(gap.first, gap.last);
   return fmt::format("  gap: run {}, {} ({}: {})\n", gap.run_id, frames, name_of(gap.cause), explain(gap.cause));
 }
 
@@ -54,6 +64,25 @@ std::string gap_lines(const std::vector<Gap>& gaps) {
   for (std::size_t i = 0; i < shown; ++i) text += gap_line(gaps[i]);
   if (shown == gaps.size()) return text;
   return text + fmt::format("  and {} more: flexcast.gaps in the file has them all\n", gaps.size() - shown);
+}
+
+// Frames of each cause that there is, in the order of the causes.
+std::map<GapCause, std::uint64_t> count_causes(const std::vector<Gap>& gaps) {
+  std::map<GapCause, std::uint64_t> frames;
+  for (const Gap& gap : gaps) frames[gap.cause] += gap.last - gap.first + 1;
+  return frames;
+}
+
+// "4 frames missing in 2 gaps: 1 lost, 3 incomplete"
+std::string missing_line(const std::vector<Gap>& gaps) {
+  std::uint64_t missing = 0;
+  std::string causes;
+  for (const auto& [cause, frames] : count_causes(gaps)) {
+    missing += frames;
+    causes += fmt::format("{}{} {}", causes.empty() ? ": " : ", ", frames, name_of(cause));
+  }
+  if (missing == 0) return "  no frame is missing\n";
+  return fmt::format("  {} missing in {}{}\n", count(missing, "frame"), count(gaps.size(), "gap"), causes);
 }
 
 template <class Value>
@@ -75,6 +104,12 @@ std::uint64_t step_count(const Report& report) {
 std::uint64_t missing_count(const Report& report) {
   std::uint64_t frames = 0;
   for (const Gap& gap : report.reception.gaps) frames += gap.last - gap.first + 1;
+  return frames;
+}
+
+std::uint64_t paused_count(const Report& report) {
+  std::uint64_t frames = 0;
+  for (const Pause& pause : report.reception.pauses) frames += pause.last - pause.first + 1;
   return frames;
 }
 
@@ -100,15 +135,18 @@ std::string to_text(const Report& report) {
   for (const RunSummary& run : reception.runs) {
     if (run.joined_at > 0) text += fmt::format("  run {}: joined at frame {}\n", run.run_id, run.joined_at);
   }
+  for (const Pause& pause : reception.pauses) {
+    text += fmt::format("  paused: run {}, {}\n", pause.run_id, range_text(pause.first, pause.last));
+  }
   text += gap_lines(reception.gaps);
   for (const auto& [topic, dropped] : reception.dropped) {
     text += fmt::format("  dropped: {} of {}\n", count(dropped, "message"), wire::topic(topic).name);
   }
   if (reception.unreadable > 0) text += fmt::format("  unreadable: {}\n", count(reception.unreadable, "message"));
-  const std::uint64_t missing = missing_count(report);
-  return text + (missing == 0 ? std::string("  no frame is missing\n")
-                              : fmt::format("  {} missing in {}\n", count(missing, "frame"),
-                                            count(reception.gaps.size(), "gap")));
+  if (const std::uint64_t paused = paused_count(report); paused > 0) {
+    text += fmt::format("  {} not recorded while paused\n", count(paused, "frame"));
+  }
+  return text + missing_line(reception.gaps);
 }
 
 std::string to_json(const Report& report) {
@@ -126,18 +164,29 @@ std::string to_json(const Report& report) {
                     {"frames", run.frames},
                     {"joined_at", run.joined_at}});
   }
-  const Json json{{"file", report.file},
-                  {"world", report.world},
-                  {"frames", frame_count(report)},
-                  {"gaps", missing_count(report)},
-                  {"missing", missing},
-                  {"runs", runs},
-                  {"bytes", report.bytes},
-                  {"seconds", report.reception.seconds},
-                  {"messages", report.messages},
-                  {"dropped", dropped_count(report)},
-                  {"simulated_seconds", simulated_seconds(report)},
-                  {"steps", step_count(report)}};
+  Json causes = Json::object();
+  for (const auto& [cause, frames] : count_causes(report.reception.gaps)) causes[name_of(cause)] = frames;
+  Json paused = Json::array();
+  for (const Pause& pause : report.reception.pauses) {
+    paused.push_back({{"run_id", pause.run_id}, {"first", pause.first}, {"last", pause.last}});
+  }
+  Json json{{"file", report.file},
+            {"world", report.world},
+            {"frames", frame_count(report)},
+            {"gaps", missing_count(report)},
+            {"missing", missing},
+            {"causes", causes},
+            {"paused", paused},
+            {"paused_frames", paused_count(report)},
+            {"runs", runs},
+            {"bytes", report.bytes},
+            {"seconds", report.reception.seconds},
+            {"messages", report.messages},
+            {"dropped", dropped_count(report)},
+            {"simulated_seconds", simulated_seconds(report)},
+            {"steps", step_count(report)}};
+  if (!report.parts.empty()) json["parts"] = report.parts;
+  if (!report.failure.empty()) json["failure"] = report.failure;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -148,14 +197,17 @@ mcap::TextPairs gaps_metadata(const Report& report) {
     const Gap& gap = gaps[i];
     pairs[fmt::format("gap.{}", i)] = fmt::format("{} {} {} {}", gap.run_id, gap.first, gap.last, name_of(gap.cause));
   }
+  pairs["paused"] = std::to_string(paused_count(report));
+  for (std::size_t i = 0; i < report.reception.pauses.size(); ++i) {
+    const Pause& pause = report.reception.pauses[i];
+    pairs[fmt::format("pause.{}", i)] = fmt::format("{} {} {}", pause.run_id, pause.first, pause.last);
+  }
   return pairs;
 }
 
 mcap::TextPairs recording_metadata(const Report& report) {
   const Reception& reception = report.reception;
   mcap::TextPairs pairs{{"world", report.world},
-                        {"domain", std::to_string(report.domain)},
-                        {"profile", report.profile},
                         {"version", FLEXCAST_VERSION},
                         {"server_version", reception.server_version},
                         {"ended", std::string(name_of(reception.end))},
@@ -164,6 +216,8 @@ mcap::TextPairs recording_metadata(const Report& report) {
                         {"unreadable", std::to_string(reception.unreadable)},
                         {"seconds", fmt::format("{:.9f}", reception.seconds)},
                         {"runs", std::to_string(reception.runs.size())}};
+  if (report.domain >= 0) pairs["domain"] = std::to_string(report.domain);
+  if (report.domain >= 0) pairs["profile"] = report.profile;
   for (const auto& [topic, dropped] : reception.dropped) {
     pairs[std::string("dropped.") + wire::topic(topic).name] = std::to_string(dropped);
   }

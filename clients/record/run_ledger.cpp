@@ -12,12 +12,16 @@ constexpr std::size_t most_parts = 4096;
 
 std::string_view name_of(GapCause cause) {
   switch (cause) {
-    case GapCause::not_received:
-      return "not received";
+    case GapCause::unpublished:
+      return "unpublished";
+    case GapCause::lost:
+      return "lost";
     case GapCause::incomplete:
       return "incomplete";
     case GapCause::queue:
       return "queue";
+    case GapCause::disk:
+      return "disk";
   }
   return "unknown";
 }
@@ -53,6 +57,26 @@ void RunLedger::drop(const wire::FrameHead& head) {
   dropped_.add(head.frame);
 }
 
+void RunLedger::skip(const wire::FrameHead& head) {
+  newest_ = std::max(newest_, head.frame);
+  // Chunks of several frames may come mixed up: only what lies between two skipped frames can be filled.
+  if (skipping_ && *skipping_ < head.frame && seen_.stretch(*skipping_).last >= head.frame) {
+    paused_.add({*skipping_, head.frame});
+  } else {
+    paused_.add(head.frame);
+  }
+  skipping_ = std::max(skipping_.value_or(0), head.frame);
+}
+
+bool RunLedger::lose(const wire::FrameHead& head) {
+  newest_ = std::max(newest_, head.frame);
+  const bool was_complete = complete_.contains(head.frame);
+  complete_.remove(head.frame);
+  parts_.erase(head.frame);
+  cut_.add(head.frame);
+  return was_complete;
+}
+
 std::uint64_t RunLedger::joined_at() const {
   if (watched_) return 0;
   // A recorder that joins between two chunks of a frame cannot have that frame.
@@ -68,12 +92,28 @@ std::uint64_t RunLedger::in_progress() const {
 }
 
 std::uint64_t RunLedger::missing() const {
-  return newest_ + 1 - joined_at() - complete_.size() - in_progress();
+  return newest_ + 1 - joined_at() - complete_.size() - paused_.size() - in_progress();
+}
+
+std::uint64_t RunLedger::contiguous_end() const {
+  std::uint64_t frame = joined_at();
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (const FrameRanges* settled : {&complete_, &paused_, &unpublished_}) {
+      const auto stretch = settled->stretch(frame);
+      if (!stretch.contained) continue;
+      frame = stretch.last + 1;
+      goes_on = true;
+    }
+  }
+  return frame;
 }
 
 GapCause RunLedger::cause_of(std::uint64_t frame) const {
+  if (cut_.contains(frame)) return GapCause::disk;
   if (dropped_.contains(frame)) return GapCause::queue;
-  return seen_.contains(frame) ? GapCause::incomplete : GapCause::not_received;
+  if (seen_.contains(frame)) return GapCause::incomplete;
+  return unpublished_.contains(frame) ? GapCause::unpublished : GapCause::lost;
 }
 
 RunSummary RunLedger::summary() const {
@@ -91,10 +131,11 @@ RunSummary RunLedger::summary() const {
 std::vector<Gap> RunLedger::gaps() const {
   std::vector<Gap> gaps;
   for (std::uint64_t frame = joined_at(); frame <= newest_;) {
-    const auto complete = complete_.stretch(frame);
-    std::uint64_t last = std::min(complete.last, newest_);
-    if (!complete.contained) {
-      last = std::min({last, dropped_.stretch(frame).last, seen_.stretch(frame).last});
+    std::uint64_t last = newest_;
+    for (const FrameRanges* ranges : {&complete_, &paused_, &cut_, &dropped_, &seen_, &unpublished_}) {
+      last = std::min(last, ranges->stretch(frame).last);
+    }
+    if (!complete_.contains(frame) && !paused_.contains(frame)) {
       const GapCause cause = cause_of(frame);
       const bool goes_on = !gaps.empty() && gaps.back().last + 1 == frame && gaps.back().cause == cause;
       if (goes_on) {
@@ -107,6 +148,12 @@ std::vector<Gap> RunLedger::gaps() const {
     frame = last + 1;
   }
   return gaps;
+}
+
+std::vector<Pause> RunLedger::pauses() const {
+  std::vector<Pause> list;
+  for (const FrameRange& range : paused_.ranges()) list.push_back({run_id_, range.first, range.last});
+  return list;
 }
 
 }  // namespace flexcast::record

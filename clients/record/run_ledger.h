@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,21 +14,32 @@ namespace flexcast::record {
 
 // Why a frame is missing.
 enum class GapCause {
-  not_received,  // the server did not publish it, or it was lost on the way
-  incomplete,    // some of its chunks came, others did not
-  queue,         // it came while the recorder's queue was full: the disk was too slow
+  unpublished,  // the server says that it did not publish it
+  lost,         // it was lost on the way, as far as is known
+  incomplete,   // some of its chunks came, others did not
+  queue,        // it came while the recorder's queue was full: the disk was too slow
+  disk,         // it came, but the file could not take it
 };
 
-// "not received", "incomplete", "queue"
+// "unpublished", "lost", "incomplete", "queue", "disk"
 std::string_view name_of(GapCause cause);
 
 struct Gap {
   std::uint64_t run_id = 0;
   std::uint64_t first = 0;
   std::uint64_t last = 0;  // included
-  GapCause cause = GapCause::not_received;
+  GapCause cause = GapCause::lost;
 
   bool operator==(const Gap&) const = default;
+};
+
+// Frames of one run that were published while the recorder was paused: not recorded, and not missing.
+struct Pause {
+  std::uint64_t run_id = 0;
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;  // included
+
+  bool operator==(const Pause&) const = default;
 };
 
 struct RunSummary {
@@ -63,15 +75,30 @@ class RunLedger {
   // Takes note of a chunk that did not fit the queue.
   void drop(const wire::FrameHead& head);
 
+  // Takes note of a chunk that came while the recorder was paused. What is lost between two of these counts as paused.
+  void skip(const wire::FrameHead& head);
+  void resume() { skipping_.reset(); }
+  bool is_skipped(std::uint64_t frame) const { return paused_.contains(frame); }
+
+  // The server says that it did not publish these.
+  void note_unpublished(const FrameRange& range) { unpublished_.add(range); }
+
+  // Takes back a recorded chunk: the file could not take it. True if its frame was complete.
+  bool lose(const wire::FrameHead& head);
+
   std::uint64_t frames() const { return complete_.size(); }
   std::uint64_t in_progress() const;  // frames that are newer than every complete one and may become complete
   std::uint64_t missing() const;      // frames, without those in progress
   std::uint64_t next_frame() const { return complete_.empty() ? joined_at() : complete_.last() + 1; }
 
+  // The first frame from where the run was joined that is neither there nor known not to come.
+  std::uint64_t contiguous_end() const;
+
   RunSummary summary() const;
 
   // Ordered; neighbours differ in cause. Frames in progress count as incomplete.
   std::vector<Gap> gaps() const;
+  std::vector<Pause> pauses() const;
 
  private:
   struct Moment {
@@ -90,6 +117,10 @@ class RunLedger {
   FrameRanges complete_;
   FrameRanges seen_;                                  // a chunk was recorded
   FrameRanges dropped_;                               // a chunk was not
+  FrameRanges paused_;                                // the recorder was paused
+  FrameRanges unpublished_;                           // says the server
+  FrameRanges cut_;                                   // the file could not take a chunk
+  std::optional<std::uint64_t> skipping_;             // the newest frame of the pause that lasts
   std::map<std::uint64_t, std::vector<bool>> parts_;  // which chunks came, of frames that are not complete
   std::vector<std::uint64_t> next_;                   // of each chunk number: 1 + the last frame recorded
 };

@@ -2,6 +2,7 @@
 // It remembers replies and executes a repeated request once.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -47,12 +48,30 @@ class FakeServer {
     const std::scoped_lock lock(status_mutex_);
     (void)statuses_.dispose(*status);
   }
+  std::atomic<int> statuses{0};    // sent
 
   const wire::Participant& participant() const { return participant_; }
 
-  // One frame of `chunks` chunks with two particles each: x counts up over the frame from 100 * frame.
-  void publish(std::uint64_t run_id, std::uint64_t frame, std::uint32_t chunks = 1) const {
-    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+  // From now on its statuses are of this run and say that it did not publish these: first, last, first, last, ...
+  // Returns when one has said so, unless it is quiet.
+  void say_unpublished(std::uint64_t run_id, std::vector<std::uint64_t> ranges) {
+    {
+      const std::scoped_lock lock(unpublished_mutex_);
+      run_id_ = run_id;
+      unpublished_ = std::move(ranges);
+    }
+    for (const int before = statuses; !quiet && statuses < before + 2;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  // Whether somebody reads its frames.
+  bool is_read() const { return frames_.matched().current > 0; }
+
+  // One frame of `chunks` chunks with two particles each, or the first `sent` of them: x counts up over the frame from
+  // 100 * frame.
+  void publish(std::uint64_t run_id, std::uint64_t frame, std::uint32_t chunks = 1, std::uint32_t sent = ~0u) const {
+    for (std::uint32_t chunk = 0; chunk < std::min(chunks, sent); ++chunk) {
       wire::Owned<flexcast_ParticleFrame> sample;
       wire::set_string(sample->world, world_);
       sample->run_id = run_id;
@@ -98,7 +117,13 @@ class FakeServer {
     status->report.min_j = std::nan("");
     status->rate = 1;
     wire::set_string(status->version, version_);
+    {
+      const std::scoped_lock lock(unpublished_mutex_);
+      status->run_id = run_id_;
+      wire::copy(status->unpublished, unpublished_);
+    }
     (void)statuses_.write(*status);
+    ++statuses;
   }
 
   void receive(const flexcast_Command& command) {
@@ -248,10 +273,17 @@ class FakeServer {
   std::mutex status_mutex_;  // between statuses and the goodbye
   wire::Participant participant_ = join_test_domain();
   wire::Writer<flexcast_SceneInfo> scenes_ = wire::Writer<flexcast_SceneInfo>::create(participant_).value();
+  // Of the topics that a recorder waits for and nothing is published on.
+  wire::Writer<flexcast_Topology> topologies_ = wire::Writer<flexcast_Topology>::create(participant_).value();
+  wire::Writer<flexcast_ParameterSet> parameters_ = wire::Writer<flexcast_ParameterSet>::create(participant_).value();
+  wire::Writer<flexcast_Event> events_ = wire::Writer<flexcast_Event>::create(participant_).value();
   wire::Writer<flexcast_Status> statuses_ = wire::Writer<flexcast_Status>::create(participant_).value();
   wire::Writer<flexcast_Reply> replies_ = wire::Writer<flexcast_Reply>::create(participant_).value();
   wire::Writer<flexcast_ParticleFrame> frames_ = wire::Writer<flexcast_ParticleFrame>::create(participant_).value();
   wire::Reader<flexcast_Command> commands_ = wire::Reader<flexcast_Command>::create(participant_).value();
+  std::mutex unpublished_mutex_;  // for the two below
+  std::uint64_t run_id_ = 0;
+  std::vector<std::uint64_t> unpublished_;
   flexcast_WorldState state_ = flexcast_WORLD_RUNNING;
   std::uint64_t step_ = 0, heartbeat_ = 0;
   std::atomic<std::uint64_t> revision_{0};

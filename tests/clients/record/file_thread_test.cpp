@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "clients/record/recording_file.h"
 #include "tests/clients/mcap/contents.h"
 
 namespace flexcast::record {

@@ -36,6 +36,28 @@ TEST(FrameRanges, AgreesWithASetOfNumbersInWhateverOrderTheyCome) {
   }
 }
 
+TEST(FrameRanges, AgreesWithASetWhenRangesAreAddedAndNumbersRemoved) {
+  std::mt19937_64 random(9);
+  FrameRanges ranges;
+  std::set<std::uint64_t> numbers;
+  for (int i = 0; i < 600; ++i) {
+    const std::uint64_t first = random() % 300, last = first + random() % 6;
+    if (i % 3 == 0) {
+      ranges.add(FrameRange{first, last});
+      for (std::uint64_t number = first; number <= last; ++number) numbers.insert(number);
+    } else {
+      ranges.remove(first);
+      numbers.erase(first);
+    }
+    ASSERT_EQ(ranges.size(), numbers.size());
+    for (std::uint64_t number = 0; number < 310; ++number) {
+      ASSERT_EQ(ranges.contains(number), numbers.contains(number)) << number;
+    }
+    const std::vector<FrameRange> list = ranges.ranges();
+    for (std::size_t k = 0; k + 1 < list.size(); ++k) ASSERT_LT(list[k].last + 1, list[k + 1].first);
+  }
+}
+
 TEST(FrameRanges, HoldsBothEndsOfTheNumbers) {
   FrameRanges ranges;
   EXPECT_TRUE(ranges.empty());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace flexcast::record {
 namespace {
 
@@ -57,8 +59,7 @@ TEST(GapLedger, NamesEveryGapInTheMiddle) {
   offer_frames(ledger, 8, 10);
   offer_frames(ledger, 12, 12);
   EXPECT_EQ(ledger.missing(), 4u);
-  EXPECT_EQ(ledger.gaps(),
-            (std::vector<Gap>{{run, 5, 7, GapCause::not_received}, {run, 11, 11, GapCause::not_received}}));
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 5, 7, GapCause::lost}, {run, 11, 11, GapCause::lost}}));
 }
 
 TEST(GapLedger, CountsARunThatWasJoinedLateFromWhereItWasJoined) {
@@ -74,7 +75,7 @@ TEST(GapLedger, ExpectsALaterRunOfTheSameServerFromItsFirstFrameOn) {
   offer_frames(ledger, 5, 9);
   offer_frames(ledger, 2, 4, run + 1);
   offer_frames(ledger, 0, 1, run + 2);
-  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 1, 0, 1, GapCause::not_received}}));
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 1, 0, 1, GapCause::lost}}));
   EXPECT_EQ(ledger.missing(), 2u);
   EXPECT_EQ(ledger.runs()[1].joined_at, 0u);
   EXPECT_EQ(ledger.runs()[1].first_frame, 2u);
@@ -88,7 +89,7 @@ TEST(GapLedger, JoinsTheFirstRunOfAServerThatWasStartedAgain) {
   offer_frames(ledger, 3, 5, run + 1, server + 1);
   offer_frames(ledger, 1, 2, run + 2, server + 1);
   EXPECT_EQ(ledger.runs()[1].joined_at, 3u);
-  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 2, 0, 0, GapCause::not_received}}));
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run + 2, 0, 0, GapCause::lost}}));
 }
 
 TEST(GapLedger, DropsAFrameThatIsNotNewerThanTheLast) {
@@ -160,10 +161,103 @@ TEST(GapLedger, NamesTheQueueAsTheCauseOfWhatItDropped) {
   for (std::uint64_t frame = 3; frame <= 5; ++frame) ledger.drop(head_of(frame), server);
   offer_frames(ledger, 8, 8);
   ledger.drop(head_of(9), server);
+  EXPECT_EQ(
+      ledger.gaps(),
+      (std::vector<Gap>{{run, 3, 5, GapCause::queue}, {run, 6, 7, GapCause::lost}, {run, 9, 9, GapCause::queue}}));
+  EXPECT_EQ(ledger.missing(), 6u);
+}
+
+TEST(GapLedger, TellsWhatTheServerDidNotPublishFromWhatWasLost) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 4);
+  offer_frames(ledger, 10, 10);
+  ledger.note_unpublished(run, std::array<std::uint64_t, 4>{3, 6, 9, 9});
   EXPECT_EQ(ledger.gaps(),
             (std::vector<Gap>{
-                {run, 3, 5, GapCause::queue}, {run, 6, 7, GapCause::not_received}, {run, 9, 9, GapCause::queue}}));
-  EXPECT_EQ(ledger.missing(), 6u);
+                {run, 5, 6, GapCause::unpublished}, {run, 7, 8, GapCause::lost}, {run, 9, 9, GapCause::unpublished}}));
+  EXPECT_TRUE(ledger.has_lost());
+  ledger.note_unpublished(run, std::array<std::uint64_t, 2>{7, 8});
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 5, 9, GapCause::unpublished}}));
+  EXPECT_FALSE(ledger.has_lost());
+}
+
+TEST(GapLedger, RemembersWhatAStatusSaysBeforeTheFirstFrameOfItsRun) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 1, run - 1);
+  ledger.note_unpublished(run, std::array<std::uint64_t, 2>{0, 2});
+  offer_frames(ledger, 4, 4);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 0, 2, GapCause::unpublished}, {run, 3, 3, GapCause::lost}}));
+}
+
+TEST(GapLedger, PassesOverRangesOfAStatusThatMakeNoSense) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 0);
+  offer_frames(ledger, 3, 3);
+  ledger.note_unpublished(run, std::array<std::uint64_t, 3>{2, 1, 1});
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 1, 2, GapCause::lost}}));
+}
+
+TEST(GapLedger, KeepsWhatCameWhilePausedApartFromGaps) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 4);
+  ledger.pause();
+  for (const std::uint64_t frame : {6, 7, 9}) {
+    ASSERT_EQ(ledger.judge(head_of(frame)), Verdict::paused);
+    ledger.skip(head_of(frame), server);
+  }
+  ledger.resume();
+  EXPECT_EQ(ledger.judge(head_of(9)), Verdict::paused) << "it is sent again for late joiners";
+  offer_frames(ledger, 11, 12);
+  EXPECT_EQ(ledger.pauses(), (std::vector<Pause>{{run, 6, 9}})) << "8 was lost while paused: nobody wanted it";
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 5, 5, GapCause::lost}, {run, 10, 10, GapCause::lost}}));
+  EXPECT_EQ(ledger.missing(), 2u);
+  EXPECT_EQ(ledger.frames(), 7u);
+}
+
+TEST(GapLedger, CompletesAFrameThatHadBegunBeforeThePause) {
+  GapLedger ledger;
+  offer(ledger, head_of(0, 0, 2));
+  ledger.pause();
+  EXPECT_EQ(offer(ledger, head_of(0, 1, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(1, 0, 2)), Verdict::paused);
+  EXPECT_EQ(ledger.frames(), 1u);
+}
+
+TEST(GapLedger, CountsARunThatBeganWhilePausedAsPausedThere) {
+  GapLedger ledger;
+  offer_frames(ledger, 0, 1);
+  ledger.pause();
+  for (std::uint64_t frame = 0; frame < 5; ++frame) ledger.skip(head_of(frame, 0, 1, run + 1), server);
+  ledger.resume();
+  offer_frames(ledger, 5, 6, run + 1);
+  EXPECT_EQ(ledger.pauses(), (std::vector<Pause>{{run + 1, 0, 4}}));
+  EXPECT_TRUE(ledger.gaps().empty());
+  EXPECT_EQ(ledger.missing(), 0u);
+}
+
+TEST(GapLedger, NamesTheDiskAsTheCauseOfWhatTheFileCouldNotTake) {
+  GapLedger ledger;
+  for (std::uint64_t frame = 0; frame < 6; ++frame) {
+    for (std::uint32_t chunk = 0; chunk < 2; ++chunk) offer(ledger, head_of(frame, chunk, 2));
+  }
+  ledger.lose(head_of(5, 1, 2));
+  ledger.lose(head_of(5, 0, 2));
+  ledger.lose(head_of(4, 1, 2));
+  EXPECT_EQ(ledger.frames(), 4u);
+  EXPECT_EQ(ledger.missing(), 2u);
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 4, 5, GapCause::disk}}));
+}
+
+TEST(GapLedger, IsContiguousUpToTheFirstFrameOfWhichNobodyKnows) {
+  GapLedger ledger;
+  EXPECT_EQ(ledger.contiguous_end(), 0u);
+  offer_frames(ledger, 3, 5);
+  EXPECT_EQ(ledger.contiguous_end(), 6u);
+  offer_frames(ledger, 8, 9);
+  EXPECT_EQ(ledger.contiguous_end(), 6u);
+  ledger.note_unpublished(run, std::array<std::uint64_t, 2>{6, 7});
+  EXPECT_EQ(ledger.contiguous_end(), 10u);
+  EXPECT_EQ(ledger.next_frame(), 10u);
 }
 
 TEST(GapLedger, TakesADroppedFrameThatIsSentAgain) {
@@ -232,7 +326,7 @@ TEST(GapLedger, SurvivesTheLargestFrameNumber) {
   constexpr std::uint64_t largest = GapLedger::no_limit;
   offer_frames(ledger, 0, 0);
   offer(ledger, head_of(largest));
-  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 1, largest - 1, GapCause::not_received}}));
+  EXPECT_EQ(ledger.gaps(), (std::vector<Gap>{{run, 1, largest - 1, GapCause::lost}}));
 }
 
 }  // namespace

@@ -47,6 +47,30 @@ TEST(ItemQueue, TakesAnItemOfAnySizeWhenEmpty) {
   EXPECT_EQ(queue.push(message(wire::TopicId::events, 0)), Pushed::full);
 }
 
+TEST(ItemQueue, LeavesAnItemAsItIsThatItDoesNotTake) {
+  ItemQueue queue(capacity);
+  fill(queue, wire::TopicId::events, 1000);
+  Item item = message(wire::TopicId::events, 1000);
+  ASSERT_EQ(queue.push(std::move(item)), Pushed::full);
+  EXPECT_EQ(std::get<Message>(item).bytes.size(), 1000u);
+}
+
+TEST(ItemQueue, TellsWhoeverWaitsThatThereIsRoom) {
+  ItemQueue queue(capacity);
+  fill(queue, wire::TopicId::events, 1000);
+  std::jthread reader([&] {
+    std::this_thread::sleep_for(20ms);
+    queue.pop(0ns);
+  });
+  Item item = message(wire::TopicId::events, 1000);
+  Pushed pushed = Pushed::full;
+  for (int i = 0; i < 100 && pushed == Pushed::full; ++i) {
+    queue.wait_for_room(1s);
+    pushed = queue.push(std::move(item));
+  }
+  EXPECT_EQ(pushed, Pushed::taken);
+}
+
 TEST(ItemQueue, HasRoomAgainForWhatWasPopped) {
   ItemQueue queue(capacity);
   fill(queue, wire::TopicId::events, 1000);

@@ -51,6 +51,25 @@ TEST(Options, AreTakenFromTheCommandLine) {
   EXPECT_EQ(std::get<Options>(parse({"-o", "run.mcap", "--duration", "2.5"})).duration, 2.5);
 }
 
+TEST(Options, NameTheRecorderItsPartsAndItsStart) {
+  const auto parsed =
+      parse({"-o", "run.mcap", "--id", "left_1", "--paused", "--split-size", "64MB", "--security", "me"});
+  const auto& options = std::get<Options>(parsed);
+  EXPECT_EQ(options.id, "left_1");
+  EXPECT_TRUE(options.paused);
+  EXPECT_EQ(options.split_size, 64'000'000u);
+  EXPECT_EQ(options.security, "me");
+  EXPECT_EQ(std::get<Options>(parse({"-o", "run.mcap", "--keep-last", "30"})).keep_last, 30.0);
+}
+
+TEST(Options, NeedNoOutputToRecover) {
+  const auto parsed = parse({"--recover", "run.mcap", "--json"});
+  const auto& options = std::get<Options>(parsed);
+  EXPECT_TRUE(options.recover);
+  EXPECT_EQ(options.file, "run.mcap");
+  EXPECT_TRUE(options.json);
+}
+
 TEST(Options, EndWithZeroAfterHelpAndVersion) {
   EXPECT_EQ(std::get<int>(parse({"--help"})), 0);
   EXPECT_EQ(std::get<int>(parse({"--version"})), 0);
@@ -73,7 +92,11 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{"-o", "a.mcap", "--frames", "3", "--duration", "2"},
                     std::vector{"-o", "a.mcap", "--wait", "soon"}, std::vector{"-o", "a.mcap", "--domain", "231"},
                     std::vector{"-o", "a.mcap", "--compression", "bz2"},
-                    std::vector{"-o", "a.mcap", "--split-size", "3"}, std::vector{"-o", "a.mcap", "beam"}));
+                    std::vector{"-o", "a.mcap", "--split-size", "3"}, std::vector{"-o", "a.mcap", "beam"},
+                    std::vector{"-o", "a.mcap", "--split-size", "much"}, std::vector{"-o", "a.mcap", "--id", "a b"},
+                    std::vector{"-o", "a.mcap", "--keep-last", "0"},
+                    std::vector{"-o", "a.mcap", "--keep-last", "3", "--split-size", "5MB"},
+                    std::vector{"-o", "a.mcap", "--recover", "a.mcap"}, std::vector{"--recover"}));
 
 }  // namespace
 }  // namespace flexcast::record

@@ -80,6 +80,22 @@ class Publisher {
     write(frames_, *sample);
   }
 
+  // The same with 50 kB of positions that do not compress.
+  void publish_large_chunk(std::uint64_t run_id, std::uint64_t frame, std::uint32_t chunk, std::uint32_t chunks) const {
+    auto sample = make<flexcast_ParticleFrame>();
+    sample->run_id = run_id;
+    sample->frame = frame;
+    sample->step = 10 * frame;
+    sample->time = 0.01 * static_cast<double>(frame);
+    sample->chunk = chunk;
+    sample->chunks = chunks;
+    std::vector<float> positions(12'500);
+    std::uint32_t random = static_cast<std::uint32_t>(frame) * 2 + chunk + 1;
+    for (float& x : positions) x = static_cast<float>(random = random * 1664525u + 1013904223u);
+    wire::copy(sample->positions, positions);
+    write(frames_, *sample);
+  }
+
   void publish_frames(std::uint64_t run_id, std::uint64_t first, std::uint64_t last, std::uint32_t chunks = 1) const {
     for (std::uint64_t frame = first; frame <= last; ++frame) {
       for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) publish_chunk(run_id, frame, chunk, chunks);
@@ -87,6 +103,7 @@ class Publisher {
   }
 
   const wire::UntypedWriter& frames() const { return frames_; }
+  const wire::Participant& participant() const { return participant_; }
 
  private:
   template <class T>

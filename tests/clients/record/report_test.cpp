@@ -24,7 +24,8 @@ TEST(Report, IsOneJsonObjectForPrograms) {
   EXPECT_EQ(to_json(sample()),
             R"({"file":"run.mcap","world":"beam","frames":6,"gaps":4,"missing":[)"
             R"({"run_id":11,"first":6,"last":6,"cause":"queue"},)"
-            R"({"run_id":11,"first":10,"last":12,"cause":"incomplete"}],"runs":[)"
+            R"({"run_id":11,"first":10,"last":12,"cause":"incomplete"}],"causes":{"incomplete":3,"queue":1},)"
+            R"("paused":[],"paused_frames":0,"runs":[)"
             R"({"run_id":11,"first_frame":4,"last_frame":9,"frames":5,"joined_at":4},)"
             R"({"run_id":12,"first_frame":0,"last_frame":0,"frames":1,"joined_at":0}],)"
             R"("bytes":1500000,"seconds":1.25,"messages":42,"dropped":2,"simulated_seconds":0.5,"steps":50})");
@@ -37,7 +38,7 @@ TEST(Report, HasALineForEveryGapForPeople) {
   gap: run 11, frame 6 (queue: the disk was too slow)
   gap: run 11, frames 10..12 (incomplete: some of their chunks are missing)
   dropped: 2 messages of flexcast/frames
-  4 frames missing in 2 gaps
+  4 frames missing in 2 gaps: 3 incomplete, 1 queue
 )");
 }
 
@@ -50,7 +51,21 @@ TEST(Report, DoesNotFloodPeopleWithGapsButGivesAllToPrograms) {
   EXPECT_NE(text.find("and 30 more"), std::string::npos);
   EXPECT_NE(text.find("130 frames missing in 130 gaps"), std::string::npos);
   EXPECT_NE(to_json(report).find(R"("first":258)"), std::string::npos);
-  EXPECT_EQ(gaps_metadata(report).size(), 132u);
+  EXPECT_EQ(gaps_metadata(report).size(), 133u);
+}
+
+TEST(Report, KeepsPausesApart) {
+  Report report = sample();
+  report.reception.pauses = {{11, 20, 29}, {12, 1, 1}};
+  const std::string text = to_text(report);
+  EXPECT_NE(text.find("  paused: run 11, frames 20..29\n  paused: run 12, frame 1\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("11 frames not recorded while paused"), std::string::npos) << text;
+  EXPECT_NE(text.find("4 frames missing in 2 gaps"), std::string::npos) << text;
+  EXPECT_NE(to_json(report).find(R"("paused":[{"run_id":11,"first":20,"last":29},{"run_id":12,"first":1,"last":1}])"
+                                 R"(,"paused_frames":11)"),
+            std::string::npos);
+  EXPECT_EQ(gaps_metadata(report).at("pause.0"), "11 20 29");
+  EXPECT_EQ(gaps_metadata(report).at("paused"), "11");
 }
 
 TEST(Report, SaysThatNothingIsMissing) {
