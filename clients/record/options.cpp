@@ -70,7 +70,6 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--compression", compression, "lz4 (default), zstd or none")
       ->check(CLI::IsMember({"lz4", "zstd", "none"}));
   app.add_option("--wait", options.wait, "seconds to wait for a server; default 10")->check(check_seconds);
-  app.add_option("--security", options.security, "folder with an identity; default: in the open");
   app.add_option("--id", options.id, "name for remote control; default: one of its own")->check(check_id);
   app.add_flag("--paused", options.paused, "record no frames until a RECORDER_START comes");
   std::uint64_t split_size = 0;
