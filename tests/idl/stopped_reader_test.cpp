@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,6 +26,8 @@ class Child {
  public:
   explicit Child(int domain) {
     std::vector<std::string> environment{"FLEXCAST_TEST_DOMAIN=" + std::to_string(domain)};
+    // The sanitizer of the parent is that of the child.
+    if (const char* given = std::getenv("TSAN_OPTIONS")) environment.push_back("TSAN_OPTIONS=" + std::string(given));
     std::vector<std::string> arguments{"child", "--gtest_filter=Child.DISABLED_Reads",
                                        "--gtest_also_run_disabled_tests"};
     posix_spawn(&pid_, "/proc/self/exe", nullptr, nullptr, pointers(arguments).data(), pointers(environment).data());

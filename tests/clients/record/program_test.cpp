@@ -6,6 +6,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -42,6 +43,8 @@ class Child {
   explicit Child(const std::string& file) : output_(file + ".out"), errors_(file + ".err") {
     std::vector<std::string> environment{"FLEXCAST_TEST_DOMAIN=" + std::to_string(flexcast::test::test_domain()),
                                          "FLEXCAST_TEST_FILE=" + file};
+    // The sanitizer of the parent is that of the child.
+    if (const char* given = std::getenv("TSAN_OPTIONS")) environment.push_back("TSAN_OPTIONS=" + std::string(given));
     std::vector<std::string> arguments{"child", "--gtest_filter=Child.DISABLED_Records",
                                        "--gtest_also_run_disabled_tests"};
     posix_spawn_file_actions_t actions;
