@@ -74,9 +74,11 @@ const Frame* FrameMailbox::take_oldest(bool& room) {
   const auto ring = std::find_if(rings_.begin(), rings_.end(), [](const FrameRing& r) { return r.waiting() > 0; });
   if (ring == rings_.end()) return nullptr;
   if (taken_ != nullptr) rings_.front().release(taken_);
-  room = std::exchange(refused_, false);
   finished.splice(finished.end(), rings_, rings_.begin(), ring);
-  return taken_ = ring->take();
+  taken_ = ring->take();
+  room = refused_ && 2 * rings_.back().waiting() <= rings_.back().capacity();
+  if (room) refused_ = false;
+  return taken_;
 }
 
 std::vector<Notice> FrameMailbox::take_notices() {

@@ -38,8 +38,8 @@ class FrameMailbox {
   void beat() { heartbeat_.fetch_add(1, std::memory_order_relaxed); }
   // Whether the world waits for recorders to have its frames.
   void set_held(bool held) { held_.store(held, std::memory_order_relaxed); }
-  // To be called, on the publisher's thread, when there is room again after a frame was refused. To be set before the
-  // publisher starts.
+  // To be called, on the publisher's thread, when half of the frames are free again after one was refused: so that the
+  // two threads do not wake each other for every frame. To be set before the publisher starts.
   void on_room(std::function<void()> call) { on_room_ = std::move(call); }
 
   // ---- for the publisher
@@ -62,7 +62,7 @@ class FrameMailbox {
 
  private:
   std::size_t count_waiting() const;     // under the lock
-  const Frame* take_oldest(bool& room);  // `room`: there is some again
+  const Frame* take_oldest(bool& room);  // `room`: on_room is due
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
