@@ -1,6 +1,9 @@
 #include "core/sim/state_hash.h"
 
 #include <xxhash.h>
+#if defined(__x86_64__)
+#include <xxh_x86dispatch.h>  // takes the widest vectors of the machine; the values are the same
+#endif
 
 #include <memory>
 

@@ -7,24 +7,19 @@
 #include "tests/bench/stream/frame_tally.h"
 
 namespace flexcast::bench {
-namespace {
 
-using namespace std::chrono_literals;
+wire::Participant join(int domain) {
+  auto participant = wire::Participant::create({.domain = domain});
+  if (participant) return std::move(participant).value();
+  spdlog::error("{}", participant.error().message);
+  std::exit(1);
+}
 
 server::Publications make_publications(const wire::Participant& participant, std::int64_t particles) {
   auto publications = server::Publications::create(participant, "ours", 1,
                                                    wire::frames_writer_qos(static_cast<std::size_t>(12 * particles)));
   if (publications) return std::move(publications).value();
   spdlog::error("{}", publications.error().message);
-  std::exit(1);
-}
-
-}  // namespace
-
-wire::Participant join(int domain) {
-  auto participant = wire::Participant::create({.domain = domain});
-  if (participant) return std::move(participant).value();
-  spdlog::error("{}", participant.error().message);
   std::exit(1);
 }
 
@@ -45,7 +40,7 @@ FrameFeed::~FrameFeed() {
 
 void FrameFeed::push() {
   header_.time = monotonic_seconds();
-  while (!mailbox_.push(header_, state_)) room_.wait_for(100ms);
+  while (!mailbox_.push(header_, state_)) room_.wait_for(std::chrono::milliseconds(100));
   ++header_.frame;
   ++header_.step;
   mailbox_.beat();

@@ -29,7 +29,9 @@ class FrameFeed {
   server::Publisher publisher_;
 };
 
-// A participant of the domain; ends the bench when it cannot be had.
+// A participant of the domain, and the server's writers of the world "ours"; both end the bench when they cannot be
+// had.
 wire::Participant join(int domain);
+server::Publications make_publications(const wire::Participant& participant, std::int64_t particles);
 
 }  // namespace flexcast::bench

@@ -10,6 +10,7 @@
 #include "idl/wire/qos.h"
 #include "tests/bench/stream/ddsperf.h"
 #include "tests/bench/stream/percentiles.h"
+#include "tests/bench/stream/publish_cost.h"
 #include "tests/bench/stream/publish_latency.h"
 #include "tests/bench/stream/publish_rate.h"
 #include "tests/bench/stream/subscriber.h"
@@ -24,8 +25,8 @@ Example:
   flexcast-publish-bench --seconds 3 --repeats 3
 
 Rate: frames through mailbox and publisher as fast as they go, against the samples of ddsperf, in turns. Latency: from
-the end of a step to a subscriber, against a writer and a reader alone, in turns. Medians of the repeats; ratios of
-neighbours in time.)";
+the end of a step to a subscriber, against a writer and a reader alone, in turns. Cost: CPU time of the publisher's
+thread, against a writer alone, in turns. Medians of the repeats; ratios of neighbours in time.)";
 
 struct Size {
   int kilobytes = 0;
@@ -80,6 +81,20 @@ void bench_latency(const Size& size, const Settings& settings) {
   std::fflush(stdout);
 }
 
+void bench_cost(const Size& size, const Settings& settings) {
+  std::vector<double> ours, bare, ratios;
+  for (int i = 0; i < settings.repeats; ++i) {
+    const Cost cost = measure_publish_cost(settings.domain, size.particles(), settings.seconds);
+    ours.push_back(1e3 * cost.ours);
+    bare.push_back(1e3 * cost.bare);
+    ratios.push_back(cost.ours / cost.bare);
+  }
+  std::puts(fmt::format("{:<7} cost, CPU ms       ours {:8.3f}   bare    {:8.3f}   ratio {:5.2f}", size.name(),
+                        median(ours), median(bare), median(ratios))
+                .c_str());
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,6 +125,7 @@ int main(int argc, char** argv) {
     if (only != 0 && only != size.kilobytes) continue;
     bench_rate(size, settings);
     bench_latency(size, settings);
+    bench_cost(size, settings);
   }
   return 0;
 }
