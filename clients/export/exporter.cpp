@@ -53,7 +53,7 @@ Result<void> for_each_frame(const Job& job, Summary& summary, Visit visit) {
   for (const std::size_t i : job.selection.frames) {
     if (job.progress) job.progress(done++);
     const recording::FrameEntry& entry = job.index.frames()[i];
-    const auto frame = read_frame(job.recording, entry);
+    const auto frame = read_frame(job.recording, job.index, entry);
     if (!frame || frame->positions.empty()) {
       summary.incomplete.push_back(entry.number);
       continue;

@@ -8,7 +8,16 @@ using recording::FrameEntry;
 using recording::RecordedMessage;
 using recording::Recording;
 
-std::optional<client::Frame> read_frame(Recording& recording, const FrameEntry& entry) {
+namespace {
+
+// What a frame of so many bytes can hold, whatever it says: the memory for it is claimed before it is filled.
+bool is_plausible(const flexcast_ParticleFrame& sample, const recording::Index& index, const FrameEntry& entry) {
+  return sample.total <= index.frame_bytes() && sample.chunks <= entry.last - entry.first + 1;
+}
+
+}  // namespace
+
+std::optional<client::Frame> read_frame(Recording& recording, const recording::Index& index, const FrameEntry& entry) {
   client::FrameAssembler assembler;
   recording.seek(entry.first);
   while (recording.ordinal() <= entry.last) {
@@ -16,7 +25,7 @@ std::optional<client::Frame> read_frame(Recording& recording, const FrameEntry& 
     if (message == nullptr) break;
     if (message->topic != wire::TopicId::frames) continue;
     const auto sample = wire::decode<flexcast_ParticleFrame>(message->bytes);
-    if (!sample || sample.value()->frame != entry.number) continue;
+    if (!sample || sample.value()->frame != entry.number || !is_plausible(*sample.value(), index, entry)) continue;
     if (auto frame = assembler.add(*sample.value())) return frame;
   }
   return std::nullopt;

@@ -9,8 +9,10 @@
 
 namespace flexcast::exporting {
 
-// None if the frame cannot be put together: a chunk of it is missing or cannot be read.
-std::optional<client::Frame> read_frame(recording::Recording& recording, const recording::FrameEntry& entry);
+// None if the frame cannot be put together: a chunk of it is missing or cannot be read, or it claims to be larger than
+// the recording's frames are.
+std::optional<client::Frame> read_frame(recording::Recording& recording, const recording::Index& index,
+                                        const recording::FrameEntry& entry);
 
 // The recorded head of the frame; an error if it cannot be read.
 wire::Result<wire::FrameHead> read_head(recording::Recording& recording, const recording::FrameEntry& entry);

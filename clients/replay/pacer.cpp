@@ -1,6 +1,7 @@
 #include "clients/replay/pacer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flexcast::replay {
 
@@ -11,7 +12,7 @@ void Pacer::set_rate(double rate) {
 
 Clock::duration Pacer::calc_wait(Clock::time_point now, double time, double next_time) {
   constexpr double year = 365.0 * 86400.0;  // s: longer would not fit a duration
-  if (rate_ <= 0.0) return Clock::duration::zero();
+  if (rate_ <= 0.0 || !std::isfinite(time) || !std::isfinite(next_time)) return Clock::duration::zero();
   if (next_time < time) anchor_ = {now, next_time};
   if (!anchor_) anchor_ = {now, time};
   const std::chrono::duration<double> span(std::min((next_time - anchor_->time) / rate_, year));

@@ -1,7 +1,5 @@
 #include "clients/replay/publications.h"
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "idl/wire/decode.h"
@@ -65,33 +63,33 @@ void Publications::publish_as(const wire::Writer<T>& writer, const recording::Re
 
 // Bodies that the scene does not have any more are gone, as with a server that has loaded it.
 void Publications::note(const flexcast_SceneInfo& scene) {
-  const auto bodies = scene.bodies._length;
-  dispose_topology(std::string(wire::text(scene.world)), bodies, 0, std::numeric_limits<std::uint32_t>::max());
-  topology_chunks_.erase(topology_chunks_.lower_bound(bodies), topology_chunks_.end());
+  dispose_topology(std::string(wire::text(scene.world)),
+                   [&](std::uint32_t body, std::uint32_t) { return body >= scene.bodies._length; });
 }
 
 void Publications::note(const flexcast_Topology& topology) {
-  dispose_topology(std::string(wire::text(topology.world)), topology.body, topology.chunks, topology.body + 1);
-  std::uint32_t& chunks = topology_chunks_[topology.body];
-  chunks = std::max(std::min(chunks, topology.chunks), topology.chunk + 1);
+  dispose_topology(std::string(wire::text(topology.world)), [&](std::uint32_t body, std::uint32_t chunk) {
+    return body == topology.body && chunk >= topology.chunks;
+  });
+  topology_.emplace(topology.body, topology.chunk);
 }
 
 void Publications::note(const flexcast_ParticleFrame& frame) {
-  most_frame_chunks_ = std::max(most_frame_chunks_, frame.chunk + 1);
+  frame_chunks_.insert(frame.chunk);
 }
 
-// Of the bodies in [first_body, end_body) the chunks from first_chunk on.
-void Publications::dispose_topology(const std::string& world, std::uint32_t first_body, std::uint32_t first_chunk,
-                                    std::uint32_t end_body) {
+// Those parts for which `gone(body, chunk)` is true.
+template <class Gone>
+void Publications::dispose_topology(const std::string& world, Gone gone) {
   wire::Owned<flexcast_Topology> topology;
   wire::set_string(topology->world, world);
-  for (auto body = topology_chunks_.lower_bound(first_body); body != topology_chunks_.end() && body->first < end_body;
-       ++body) {
-    topology->body = body->first;
-    for (topology->chunk = first_chunk; topology->chunk < body->second; ++topology->chunk) {
-      (void)writers_.topology.dispose(*topology);
-    }
-  }
+  std::erase_if(topology_, [&](const auto& part) {
+    if (!gone(part.first, part.second)) return false;
+    topology->body = part.first;
+    topology->chunk = part.second;
+    (void)writers_.topology.dispose(*topology);
+    return true;
+  });
 }
 
 void Publications::dispose(const std::string& world) {
@@ -99,12 +97,12 @@ void Publications::dispose(const std::string& world) {
     wire::set_string(message->world, world);
     (void)writer.dispose(*message);
   };
-  for (std::uint32_t chunk = 0; chunk < most_frame_chunks_; ++chunk) {
+  for (const std::uint32_t chunk : frame_chunks_) {
     wire::Owned<flexcast_ParticleFrame> frame;
     frame->chunk = chunk;
     dispose_one(writers_.frames, std::move(frame));
   }
-  dispose_topology(world, 0, 0, std::numeric_limits<std::uint32_t>::max());
+  dispose_topology(world, [](std::uint32_t, std::uint32_t) { return true; });
   dispose_one(writers_.parameters, wire::Owned<flexcast_ParameterSet>());
   dispose_one(writers_.scene, wire::Owned<flexcast_SceneInfo>());
   dispose_one(writers_.events, wire::Owned<flexcast_Event>());

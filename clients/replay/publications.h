@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "clients/recording/recording.h"
 #include "clients/replay/restamp.h"
@@ -49,15 +49,15 @@ class Publications {
   void note(const flexcast_ParticleFrame& frame);
   template <class T>
   void note(const T&) {}
-  void dispose_topology(const std::string& world, std::uint32_t first_body, std::uint32_t first_chunk,
-                        std::uint32_t end_body);
+  template <class Gone>
+  void dispose_topology(const std::string& world, Gone gone);
   void complain(const wire::Error& error, const char* topic);
 
   Writers writers_;
   Say say_;
-  std::uint32_t most_frame_chunks_ = 0;                     // ever written
-  std::map<std::uint32_t, std::uint32_t> topology_chunks_;  // written, by body
-  std::set<std::string> complaints_;                        // what was said
+  std::set<std::uint32_t> frame_chunks_;                        // ever written
+  std::set<std::pair<std::uint32_t, std::uint32_t>> topology_;  // body and chunk of what is there
+  std::set<std::string> complaints_;                            // what was said
 };
 
 }  // namespace flexcast::replay

@@ -52,7 +52,7 @@ class ReplayProgram : public SystemTest {
 };
 
 TEST_F(ReplayProgram, ARecordingOfAReplayHasTheSameFramesAndDefinitionsByteForByte) {
-  const std::uint64_t steps = std::getenv("FLEXCAST_LONG") != nullptr ? 60000 : 1500;
+  const std::uint64_t steps = std::getenv("FLEXCAST_LONG") != nullptr ? 20000 : 1500;
   record(steps);
   const auto replay = start_replay({"--paused"});
   const auto recorder = start_recorder("again.mcap");

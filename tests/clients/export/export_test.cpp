@@ -97,6 +97,23 @@ TEST_F(ExportTest, MissingFramesAndThoseWithoutAChunkAreNamed) {
       << ended.out;
 }
 
+TEST_F(ExportTest, AFrameThatClaimsMoreThanItHoldsIsLeftOut) {
+  RecordingMaker maker(path_);
+  maker.add_run(100, 1);
+  wire::Owned<flexcast_ParticleFrame> frame;
+  wire::set_string(frame->world, "beam");
+  frame->run_id = 100;
+  frame->frame = 1;
+  frame->topology_revision = 1;
+  frame->chunks = 1;
+  frame->total = 0xffffffff;
+  maker.add(*frame);
+  maker.close();
+  const Ended ended = run({.vtk = output_});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.err.find("1 frame is missing in the recording: 1"), std::string::npos) << ended.err;
+}
+
 TEST_F(ExportTest, WithSeveralRunsItSaysWhichOneItTakes) {
   RecordingMaker maker(path_);
   maker.add_run(100, 2);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace flexcast::replay {
 namespace {
 
@@ -50,6 +52,7 @@ TEST(ReplayPacer, AGreatDebtIsDropped) {
 TEST(ReplayPacer, ASpanBeyondAllBoundsIsALongWait) {
   Pacer pacer(1e-300);
   EXPECT_GT(pacer.calc_wait(start, 0.0, 1e300), 24h);
+  EXPECT_EQ(pacer.calc_wait(start, 0.0, std::nan("")), 0ms);  // of a recording that went wrong
 }
 
 }  // namespace

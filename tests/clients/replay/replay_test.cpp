@@ -317,6 +317,26 @@ TEST_F(ReplayTest, ANameIsGivenToEveryMessageAndTheOldOneIsNotThere) {
   EXPECT_EQ(watch.find("beam"), nullptr);
 }
 
+TEST_F(ReplayTest, BodiesThatALoadedSceneDoesNotHaveAreDisposed) {
+  RecordingMaker maker(path_);
+  maker.add_run(100, 2);
+  wire::Owned<flexcast_SceneInfo> scene;
+  wire::set_string(scene->world, "beam");
+  scene->run_id = 200;
+  scene->topology_revision = 2;
+  wire::resize(scene->bodies, 1);
+  maker.add(*scene);
+  maker.add_frame(200, 0);
+  maker.close();
+  Listener<flexcast_Topology> topologies(participant_);
+  const auto replay = start_paused();
+  ASSERT_TRUE(eventually([&] { return topologies.take().size() == 2; }));
+  EXPECT_FALSE(topologies.disposed());
+  auto connection = test::connect();
+  test::applied(connection.step(2));
+  EXPECT_TRUE(eventually([&] { return topologies.take(), topologies.disposed(); }));
+}
+
 TEST_F(ReplayTest, AWorldOfThatNameIsRefused) {
   make_recording();
   const auto first = start_paused();
