@@ -1,6 +1,7 @@
 // Whole exports of small recordings, read back as text; VTK's own reader comes in the system tests.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -107,6 +108,7 @@ TEST_F(ExportTest, AFrameThatClaimsMoreThanItHoldsIsLeftOut) {
   frame->topology_revision = 1;
   frame->chunks = 1;
   frame->total = 0xffffffff;
+  wire::copy(frame->positions64, std::array{1.0, 2.0, 3.0});
   maker.add(*frame);
   maker.close();
   const Ended ended = run({.vtk = output_});

@@ -86,6 +86,17 @@ TEST_F(IndexTest, InForceIsTheNewestOfTheRunWithTheRevisionsOfTheFrame) {
   EXPECT_EQ(index.find_in_force(head_at(recording, 14), 14), (Ordinals{9, 10, 11, 12}));
 }
 
+TEST_F(IndexTest, ParametersThatCameBeforeTheirTimeAreNotInForceYet) {
+  RecordingMaker maker(path_);
+  maker.add_run(100, 1);         // 3 parameters, 5 frame
+  maker.add_parameters(100, 2);  // 6
+  maker.add_frame(100, 1, 1);    // 7
+  maker.close();
+  Recording recording = open();
+  const auto index = Index::make(recording, {}).value();
+  EXPECT_EQ(index.find_in_force(head_at(recording, 7), 7).back(), 3U);
+}
+
 TEST_F(IndexTest, WhatCameAfterItsFrameIsInForceThereToo) {
   RecordingMaker maker(path_);
   maker.add_run(100, 1);       // 0 to 5
