@@ -174,7 +174,8 @@ void World::do_command(const Command& command, const RestoreCommand& restore) {
   end_step_ = find_end_step();
   if (at_end()) end_step_.reset();  // it lies behind
   make_frame_due();
-  chronicle_.note_command(moment(), command, "restore " + restore.name + ", from step " + std::to_string(left));
+  chronicle_.note_command(moment(), command, "restore " + restore.name + ", from step " + std::to_string(left),
+                          {{"left_step", left}});
   if (state_ != before) chronicle_.note_state(moment(), "paused");
   follow_parameters();
   answer(command, Outcome::applied);

@@ -31,4 +31,34 @@ wire::Owned<flexcast_Event> to_wire(const Event& event, std::string_view world) 
   return message;
 }
 
+Result<Event> from_wire(const flexcast_Event& message) {
+  const std::string name = "event " + std::to_string(message.index);
+  if (message.kind > flexcast_EVENT_WARNING || message.state > flexcast_WORLD_FAILED ||
+      message.command_kind > flexcast_COMMAND_STATUS) {
+    return Error{name + " is of a kind that is not known"};
+  }
+  Event event;
+  event.run_id = message.run_id;
+  event.index = message.index;
+  event.step = static_cast<std::int64_t>(message.step);
+  event.time = message.time;
+  event.kind = static_cast<EventKind>(message.kind);
+  event.state = static_cast<WorldState>(message.state);
+  event.parameter_revision = message.parameter_revision;
+  event.key = {std::string(wire::text(message.client_id)), message.request_id};
+  event.command = static_cast<CommandKind>(message.command_kind);
+  for (const auto& value : wire::elements(message.values)) {
+    auto assignment = from_wire(value);
+    if (!assignment) return Error{name + ": " + assignment.error().message};
+    event.values.push_back(std::move(assignment).value());
+  }
+  event.keep_parameters = message.keep_parameters;
+  event.name = wire::text(message.name);
+  event.particle = message.particle;
+  event.target = Vec3(message.target[0], message.target[1], message.target[2]);
+  event.stiffness = message.stiffness;
+  event.text = wire::text(message.text);
+  return event;
+}
+
 }  // namespace flexcast::server

@@ -1,4 +1,4 @@
-// Events for the network.
+// Events for the network, and from recordings of it.
 #pragma once
 
 #include <string_view>
@@ -9,5 +9,8 @@
 namespace flexcast::server {
 
 wire::Owned<flexcast_Event> to_wire(const Event& event, std::string_view world);
+
+// The error says what no server of this version writes.
+Result<Event> from_wire(const flexcast_Event& message);
 
 }  // namespace flexcast::server

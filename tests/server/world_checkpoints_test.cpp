@@ -119,6 +119,9 @@ TEST_F(WorldCheckpoints, BothAreEventsWithTheName) {
   EXPECT_EQ(events[0].command, CommandKind::restore);
   EXPECT_EQ(events[0].name, "start");
   EXPECT_EQ(events[0].step, 10);
+  ASSERT_EQ(events[0].values.size(), 1u);
+  EXPECT_EQ(events[0].values[0].name, "left_step");
+  EXPECT_EQ(events[0].values[0].value, ParameterValue(std::int64_t{15}));
   EXPECT_EQ(events[0].key.request_id, command.key.request_id);
   EXPECT_EQ(events[0].index, world.events().back().index);
   EXPECT_EQ(world.notices_of<RunStarted>().size(), 1u);

@@ -60,6 +60,47 @@ TEST_F(CtlSystem, ReadsWellWithoutJson) {
   }
 }
 
+TEST_F(CtlSystem, StatusTellsAStoppedServerFromAnEndedOneAndADeadOne) {
+  const auto scene = write_file("pair.toml", pair_scene());
+  auto server = start_server(scene);
+  EXPECT_EQ(ctl_json({"status"})["health"], "ok");
+  const auto watch = start("flexcast-ctl", {"--domain", std::to_string(domain()), "status", "--watch"});
+  ASSERT_TRUE(watch->wait_for_line("running", patience));
+  end(*server, SIGTERM);
+  EXPECT_TRUE(watch->wait_for_line("'pair' is ended", patience)) << watch->err();
+  server = start_server(scene);
+  EXPECT_TRUE(watch->wait_for_line("'pair' is back", patience)) << watch->err();
+  server->send(SIGKILL);
+  EXPECT_TRUE(watch->wait_for_line("'pair' is gone", patience)) << watch->err();
+  end(*watch, SIGINT);
+}
+
+TEST_F(CtlSystem, StatusSaysThatTheStepLoopStandsStill) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()));
+  EXPECT_EQ(ctl({"set", "time.substeps=1000000", "time.integrator=rk4"}).code, 0);  // a step of many seconds
+  const Ended ended = ctl({"status", "--json"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(Json::parse(ended.out)["health"], "hung");
+  EXPECT_NE(ended.err.find("its step loop stands still"), std::string::npos) << ended.err;
+}
+
+TEST_F(CtlSystem, SetIfRevisionTakesOneOfTwoThatDecidedOnTheSame) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--paused"});
+  const std::string revision = ctl_json({"get"})["parameter_revision"].dump();
+  EXPECT_EQ(ctl({"set", "--if-revision", revision, "rope.damping=0.5"}).code, 0);
+  const Ended second = ctl({"set", "--if-revision", revision, "rope.damping=0.7"});
+  EXPECT_EQ(second.code, 1);
+  EXPECT_NE(second.err.find("is in force, not " + revision), std::string::npos) << second.err;
+  EXPECT_EQ(ctl_json({"get", "rope.damping"})["values"]["rope.damping"], 0.5);
+}
+
+TEST_F(CtlSystem, TheDoctorIsContentWithAServerThatIsWell) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()));
+  const Ended ended = ctl({"--wait", "1", "doctor", "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_EQ(Json::parse(ended.out)["healthy"], true);
+}
+
 TEST_F(CtlSystem, NoServerIsAFailureWithinTheWaitAndBadUsageIsTold) {
   for (const Arguments& arguments : {Arguments{"--wait", "0.3", "status"}, Arguments{"--wait", "0.3", "get"},
                                      Arguments{"--wait", "0.3", "--world", "nobody", "pause"}}) {
@@ -85,7 +126,8 @@ TEST_F(CtlSystem, NoServerIsAFailureWithinTheWaitAndBadUsageIsTold) {
 }
 
 TEST_F(CtlSystem, EveryProgramKnowsHelpVersionAndBadUsage) {
-  for (const std::string program : {"flexcast-server", "flexcast-record", "flexcast-ctl", "flexcast-lab"}) {
+  for (const std::string program :
+       {"flexcast-server", "flexcast-record", "flexcast-ctl", "flexcast-lab", "flexcast-verify"}) {
     const Ended help = run(program, {"--help"});
     EXPECT_EQ(help.code, 0) << program;
     EXPECT_NE(help.out.find("xample"), std::string::npos) << program;
