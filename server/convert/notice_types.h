@@ -45,8 +45,8 @@ struct Event {
   std::uint64_t parameter_revision = 0;
   RequestKey key;                             // of the command; client_id "" for the server's own
   CommandKind command = CommandKind::status;  // EventKind::command only
-  // set: what was set; reset that keeps parameters: what was kept; restore: left_step, the step the world was at before;
-  // choice: time.substeps and solver.iterations as they are taken from then on.
+  // set: what was set; reset that keeps parameters: what was kept; restore: left_step, the step the world was at
+  // before; choice: time.substeps and solver.iterations as they are taken from then on.
   std::vector<ParameterAssignment> values;
   bool keep_parameters = false;
   std::string name;            // load: of the scene; save, restore: of the checkpoint
