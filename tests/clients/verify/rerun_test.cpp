@@ -38,8 +38,21 @@ TEST(Rerun, AFailureMustHappenHereToo) {
   session.run(10);
   const RunReport run = only_run(session);
   EXPECT_EQ(run.verdict, Verdict::equal) << run.reason;
-  event_of(session, server::CommandKind::set).values[0].value = 20.0;  // with which nothing fails
-  EXPECT_EQ(only_run(session).verdict, Verdict::differs);
+}
+
+TEST(Rerun, AFailureThatDoesNotHappenHereIsADifferenceAlthoughEveryFrameIsEqual) {
+  Session session(test::pair_scene());
+  session.run(10);
+  Event failure = session.events.back();
+  ++failure.index;
+  failure.step = 10;
+  failure.kind = server::EventKind::state;
+  failure.state = server::WorldState::failed;
+  session.events.push_back(failure);
+  const RunReport run = only_run(session);
+  EXPECT_EQ(run.verdict, Verdict::differs);
+  EXPECT_EQ(run.differing, 0u);
+  EXPECT_NE(run.reason.find("step 11 could not be taken in the recording"), std::string::npos) << run.reason;
 }
 
 TEST(Rerun, ACheckpointOfAnotherRunOfTheRecordingIsKnown) {
