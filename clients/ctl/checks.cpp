@@ -64,7 +64,7 @@ Diagnosis examine_buffer(const Findings& f) {
 // ---------------------------------------------------------------- the domain
 
 Diagnosis examine_participants(const Findings& f) {
-  const std::string count = fmt::format("{} other participants on the domain", f.participants.size());
+  const std::string count = fmt::format("participants on the domain beside this one: {}", f.participants.size());
   if (f.profile != "loopback" || f.participants.size() + 5 < most_participants) return {Level::ok, count, ""};
   return {Level::warn, fmt::format("{}, of {} that one machine takes", count, most_participants - 1),
           "end programs that are not needed, or use another --domain"};

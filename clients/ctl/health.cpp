@@ -65,7 +65,7 @@ std::string describe(Health health, const HealthJudge& judge, HealthJudge::Clock
       return "alive and well";
     case Health::hung:
       return fmt::format(
-          "alive, but its step loop stands still: {} is its heartbeat for {:.1f} s; a step hangs or takes that long, "
+          "alive, but its step loop stands still: heartbeat {} for {:.1f} s; a step hangs or takes that long, "
           "look at the server's machine and log",
           judge.status()->heartbeat, judge.still());
     case Health::gone:

@@ -108,7 +108,7 @@ TEST(Doctor, FindsStatusesOfAnotherFormAndDomainsOfOthers) {
   f.writers = {{wire::Guid{1}, "rt/chatter", "std_msgs::String"}};
   expect(f, "types", Level::warn, "none writes a topic of flexcast", "--domain");
   f.participants.assign(48, wire::Guid{1});
-  expect(f, "participants", Level::warn, "48 other participants", "another --domain");
+  expect(f, "participants", Level::warn, "beside this one: 48", "another --domain");
 }
 
 TEST(Doctor, ADomainThatCannotBeJoinedIsAFailure) {

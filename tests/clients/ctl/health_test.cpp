@@ -46,7 +46,7 @@ TEST_F(HealthJudgement, TheSameHeartbeatForHalfASecondIsHungUntilItMoves) {
   EXPECT_EQ(health(250ms), Health::ok) << "not yet";
   hear(480ms, 7);
   EXPECT_EQ(health(490ms), Health::hung);
-  EXPECT_NE(describe(Health::hung, judge, at(490ms)).find("stands still: 7"), std::string::npos);
+  EXPECT_NE(describe(Health::hung, judge, at(490ms)).find("stands still: heartbeat 7"), std::string::npos);
   hear(720ms, 8);
   EXPECT_EQ(health(730ms), Health::ok);
 }

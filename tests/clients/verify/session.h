@@ -75,13 +75,13 @@ class Session {
     return reply;
   }
 
-  // As long as it runs, at most so many steps, each said to take so long.
-  int run(int steps, double wall_seconds = 1e-6) {
+  // As long as it runs, at most so many steps; each substep is said to take so long.
+  int run(int steps, double substep_seconds = 1e-6) {
     int taken = 0;
     for (; taken < steps && world_->running(); ++taken) {
       world_->take_step();
       collect_frame();
-      world_->settle(wall_seconds);
+      world_->settle(substep_seconds * world_->simulation().choice().substeps);
       collect();
     }
     return taken;
