@@ -14,19 +14,22 @@ void ChunkBuilder::add_record(Bytes record) {
   Encoder(records_).raw(record);
 }
 
-void ChunkBuilder::add_message(ChannelId channel, std::uint32_t sequence, Time log_time, Time publish_time,
-                               Bytes data) {
+void ChunkBuilder::add_data(Bytes data) {
+  Encoder(records_).raw(data);
+}
+
+void ChunkBuilder::add_message_head(ChannelId channel, std::uint32_t sequence, Time log_time, Time publish_time,
+                                    std::size_t data_bytes) {
   constexpr std::uint64_t kFieldBytes = 2 + 4 + 8 + 8;
   if (channel >= messages_of_channel_.size()) messages_of_channel_.resize(std::size_t{channel} + 1);
   messages_of_channel_[channel].push_back({log_time, records_.size()});
 
   Encoder encoder(records_);
-  encoder.record_prefix(Opcode::kMessage, kFieldBytes + data.size());
+  encoder.record_prefix(Opcode::kMessage, kFieldBytes + data_bytes);
   encoder.u16(channel);
   encoder.u32(sequence);
   encoder.u64(log_time);
   encoder.u64(publish_time);
-  encoder.raw(data);
 
   if (!has_messages_) first_log_time_ = start_time_ = end_time_ = log_time;
   has_messages_ = true;

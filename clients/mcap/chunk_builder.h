@@ -20,7 +20,11 @@ class ChunkBuilder {
   // A finished schema or channel record.
   void add_record(Bytes record);
 
-  void add_message(ChannelId channel, std::uint32_t sequence, Time log_time, Time publish_time, Bytes data);
+  // A message up to its data, of which there are so many bytes: they follow by add_data(), or beside the builder as the
+  // last of the chunk.
+  void add_message_head(ChannelId channel, std::uint32_t sequence, Time log_time, Time publish_time,
+                        std::size_t data_bytes);
+  void add_data(Bytes data);
 
   // Starts the next chunk.
   void clear();

@@ -10,6 +10,7 @@
 namespace flexcast::mcap {
 namespace {
 
+constexpr std::size_t kLargeMessage = std::size_t{256} * 1024;
 constexpr std::uint64_t kRoom = std::uint64_t{256} * 1024;  // beside the summary, after a cut
 
 }  // namespace
@@ -63,8 +64,10 @@ Status Writer::write_message(ChannelId channel, std::uint32_t sequence, Time log
   if (is_due(log_time)) {
     if (Status status = write_chunk(); !status) return status;
   }
-  chunk_.add_message(channel, sequence, log_time, publish_time, data);
+  chunk_.add_message_head(channel, sequence, log_time, publish_time, data.size());
   summary_.count_message(channel, log_time);
+  if (options_.compression == Compression::kNone && data.size() >= kLargeMessage) return write_chunk(data);
+  chunk_.add_data(data);
   return chunk_.records().size() >= options_.chunk_bytes ? write_chunk() : Status();
 }
 
@@ -153,14 +156,14 @@ bool Writer::is_due(Time now) const {
   return chunk_.has_messages() && now > chunk_.first_log_time() && now - chunk_.first_log_time() >= interval;
 }
 
-Status Writer::write_chunk() {
+Status Writer::write_chunk(Bytes last_data) {
   const Bytes records = chunk_.records();
   if (records.empty()) return output_.flush();
   ChunkPlace place = {.start_time = chunk_.start_time(),
                       .end_time = chunk_.end_time(),
                       .offset = output_.offset(),
-                      .unpacked_bytes = records.size()};
-  if (Status status = write_chunk_record(records, place); !status) return status;
+                      .unpacked_bytes = records.size() + last_data.size()};
+  if (Status status = write_chunk_record(records, last_data, place); !status) return status;
   if (Status status = write_message_indexes(place); !status) return status;
   chunk_.clear();
   if (Status status = output_.flush(); !status) return status;
@@ -192,27 +195,31 @@ Status Writer::cut_back(std::uint64_t room) {
   return {};
 }
 
-Status Writer::write_chunk_record(Bytes records, ChunkPlace& place) {
+Status Writer::write_chunk_record(Bytes records, Bytes last_data, ChunkPlace& place) {
   const std::string_view compression = compression_name(options_.compression);
   const Result<Bytes> packed = compressor_.compress(records);
   if (!packed) return packed.status();
-  place.packed_bytes = packed.value().size();
+  place.packed_bytes = packed.value().size() + last_data.size();
 
   const std::uint64_t field_bytes = 8 + 8 + 8 + 4 + 4 + compression.size() + 8;
   place.bytes = kRecordPrefixBytes + field_bytes + place.packed_bytes;
   const bool is_packed = options_.compression != Compression::kNone;
-  const std::uint32_t crc = options_.chunk_crc || !is_packed ? crc32(records) : 0;
+  const bool needs_crc = options_.chunk_crc || !is_packed;
+  const std::uint32_t crc = needs_crc ? crc32(records) : 0;
+  const std::uint32_t last_crc = crc32(last_data);
   scratch_.clear();
   Encoder encoder(scratch_);
   encoder.record_prefix(Opcode::kChunk, field_bytes + place.packed_bytes);
   encoder.u64(place.start_time);
   encoder.u64(place.end_time);
   encoder.u64(place.unpacked_bytes);
-  encoder.u32(options_.chunk_crc ? crc : 0);
+  encoder.u32(options_.chunk_crc ? crc32_join(crc, last_crc, last_data.size()) : 0);
   encoder.text(compression);
   encoder.u64(place.packed_bytes);
   if (Status status = output_.write(scratch_); !status) return status;
-  return is_packed ? output_.write(packed.value()) : output_.write(records, crc);
+  if (is_packed) return output_.write(packed.value());
+  if (Status status = output_.write(records, crc); !status) return status;
+  return last_data.empty() ? Status() : output_.write(last_data, last_crc);
 }
 
 Status Writer::write_message_indexes(ChunkPlace& place) {

@@ -29,7 +29,8 @@ struct WriterOptions {
   Compression compression = Compression::kLz4;
   int zstd_level = 1;
 
-  // A chunk is closed as soon as its records reach this many bytes before compression ...
+  // A chunk is closed as soon as its records reach this many bytes before compression, or, without compression, after a
+  // message of 256 KiB or more, which then goes to the sink without a copy ...
   std::size_t chunk_bytes = std::size_t{1024} * 1024;
 
   // ... or when a message, or flush_if_older(), is this much later than the first message in it.
@@ -112,8 +113,8 @@ class Writer {
   void note_chunk_end();
   Status add_definition(Bytes record);
   bool is_due(Time now) const;
-  Status write_chunk();
-  Status write_chunk_record(Bytes records, ChunkPlace& place);
+  Status write_chunk(Bytes last_data = {});
+  Status write_chunk_record(Bytes records, Bytes last_data, ChunkPlace& place);
   Status write_message_indexes(ChunkPlace& place);
 
   WriterOptions options_;

@@ -17,7 +17,7 @@ struct Message {
   std::uint32_t sequence = 0;
   std::int64_t log_time = 0;  // ns since 1970
   std::int64_t publish_time = 0;
-  std::vector<std::byte> bytes;  // CDR with its header
+  wire::SampleBytes bytes;  // CDR with its header
 };
 
 struct Attachment {
@@ -28,7 +28,7 @@ struct Attachment {
 };
 
 inline Message make_message(wire::TopicId topic, std::uint32_t sequence, const wire::RawSample& sample) {
-  return {topic, sequence, sample.receive_time, sample.info.source_time, {sample.bytes.begin(), sample.bytes.end()}};
+  return {topic, sequence, sample.receive_time, sample.info.source_time, sample.shared};
 }
 
 using Item = std::variant<Message, Attachment>;

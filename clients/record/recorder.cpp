@@ -163,7 +163,7 @@ wire::Result<Report> Recorder::rescue(const std::string& failure) {
   for (const wire::FrameHead& head : file_thread_->unwritten()) receiver_->lose(head);
   for (;;) {
     const auto cut = destination_->cut_back();
-    if (!cut) return wire::Error{failure};
+    if (!cut) return wire::Error{cut.error().message == failure ? failure : failure + "; " + cut.error().message};
     for (const wire::FrameHead& head : cut.value()) receiver_->lose(head);
     auto report = destination_->complete();
     if (!report) continue;

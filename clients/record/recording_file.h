@@ -1,6 +1,7 @@
 // RecordingFile: one MCAP file of a recording. Every recorded topic of the topic table is a channel.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <map>
 #include <memory>
@@ -54,9 +55,13 @@ class RecordingFile final : public ItemSink {
     wire::FrameHead head;       // without the world
   };
 
-  RecordingFile(mcap::ByteSink& sink, mcap::Compression compression) : writer_(sink, {.compression = compression}) {}
+  RecordingFile(mcap::ByteSink& sink, mcap::Compression compression)
+      : writer_(sink, {.compression = compression, .chunk_interval = chunk_interval}) {}
   mcap::Status add_channels();
   void note_frame(mcap::Bytes bytes);
+
+  // With the time until somebody looks, a killed recorder loses a quarter of a second.
+  static constexpr std::chrono::milliseconds chunk_interval{200};
 
   mcap::Writer writer_;
   std::map<wire::TopicId, mcap::ChannelId> channels_;

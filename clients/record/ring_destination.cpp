@@ -49,6 +49,8 @@ RingDestination::RingDestination(const Options& options, MakeReport make_report,
 mcap::Status RingDestination::write(const Item& item) {
   const auto* message = std::get_if<Message>(&item);
   if (!is_ageing(message)) return base_.file().write(item);
+  // Frames keep the file's thread busy: nobody else looks how old the chunk of the base is.
+  if (auto status = base_.file().flush_if_older(message->log_time); !status) return status;
   if (!part_ || message->log_time - part_begin_ >= part_length_) {
     if (auto begun = next_part(message->log_time); !begun) return to_mcap(begun);
   }

@@ -8,6 +8,22 @@
 #include "idl/wire/sample_info.h"
 
 namespace flexcast::wire {
+namespace {
+
+// Takes over the reference of the caller.
+SampleBytes take_bytes(ddsi_serdata* sample) {
+  const std::size_t size = ddsi_serdata_size(sample);
+  ddsrt_iovec_t memory{};
+  ddsi_serdata* reference = ddsi_serdata_to_ser_ref(sample, 0, size, &memory);
+  ddsi_serdata_unref(sample);  // the other reference holds it
+  const auto release = [memory](const void* held) {
+    ddsi_serdata_to_ser_unref(static_cast<ddsi_serdata*>(const_cast<void*>(held)), &memory);
+  };
+  std::shared_ptr<const void> owner(static_cast<const void*>(reference), release);
+  return {std::move(owner), {static_cast<const std::byte*>(memory.iov_base), size}};
+}
+
+}  // namespace
 
 Result<RawReader> RawReader::create(const Participant& participant, const TopicRow& row, const Qos& qos) {
   auto endpoint = UntypedReader::create(participant, row, qos);
@@ -25,13 +41,8 @@ Result<std::size_t> RawReader::take_raw(const std::function<void(const RawSample
   if (count < 0) return dds_error("cannot take samples", count);
   const std::int64_t now = dds_time();
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const std::size_t size = ddsi_serdata_size(samples[i]);
-    ddsrt_iovec_t memory{};
-    ddsi_serdata* reference = ddsi_serdata_to_ser_ref(samples[i], 0, size, &memory);
-    const auto* bytes = static_cast<const std::byte*>(memory.iov_base);
-    receive({{bytes, size}, to_sample_info(infos[i]), now});
-    ddsi_serdata_to_ser_unref(reference, &memory);
-    ddsi_serdata_unref(samples[i]);
+    const SampleBytes bytes = take_bytes(samples[i]);
+    receive({bytes, bytes, to_sample_info(infos[i]), now});
   }
   return static_cast<std::size_t>(count);
 }

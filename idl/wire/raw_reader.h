@@ -7,11 +7,13 @@
 #include <span>
 
 #include "idl/wire/reader.h"
+#include "idl/wire/sample_bytes.h"
 
 namespace flexcast::wire {
 
 struct RawSample {
   std::span<const std::byte> bytes;  // CDR with its 4-byte header; valid during the call only
+  SampleBytes shared;                // the same bytes; a copy keeps them
   SampleInfo info;
   std::int64_t receive_time = 0;  // ns since 1970, when it was taken
 };
