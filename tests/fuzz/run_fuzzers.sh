@@ -2,7 +2,7 @@
 # Builds the fuzzers with clang and runs each, or those that are named, for SECONDS (default 10) from its seeds in
 # tests/fuzz/corpus. Usage: tests/fuzz/run_fuzzers.sh [SECONDS] [NAME...]
 #
-# The engine comes from the build in build-tests, or in FLEXCAST_ENGINE_BUILD (below this repository's top).
+# The engine comes from the build in build-tests, or in FLEXCAST_ENGINE_BUILD.
 # A crash, a leak, an input that takes ten seconds or more memory than granted ends with 1, and leaves the input in
 # build-fuzz/findings. "build-fuzz/bin/fuzz_NAME FILE" runs one input again.
 set -euo pipefail
@@ -24,7 +24,7 @@ launcher=()
 ! command -v ccache >/dev/null || launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 make_fuzzers() {
   cmake --build "$engine" --target flexcast_core &&
-    cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$PWD/$engine" -DCMAKE_C_COMPILER=clang \
+    cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$(realpath "$engine")" -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" &&
     cmake --build "$build" --target "${names[@]/#/fuzz_}"
 }
