@@ -65,6 +65,10 @@ void GapLedger::drop(const wire::FrameHead& head, std::uint64_t writer) {
   open(head, writer).drop(head);
 }
 
+void GapLedger::pass(const wire::FrameHead& head) {
+  if (RunLedger* run = find(head.run_id)) run->pass(head);
+}
+
 void GapLedger::skip(const wire::FrameHead& head, std::uint64_t writer) {
   open(head, writer).skip(head);
 }

@@ -18,7 +18,7 @@ namespace flexcast::record {
 enum class Verdict {
   record,    // then tell add() or drop()
   repeated,  // not newer than what there is: the server sends the newest frame again for late joiners
-  beyond,    // a new frame, but there are enough
+  beyond,    // a new frame, but there are enough: then tell pass()
   paused,    // the recorder is paused, or was when the frame began: then tell skip()
   invalid,   // chunk numbers that make no sense
 };
@@ -45,6 +45,8 @@ class GapLedger {
   void add(const wire::FrameHead& head, std::uint64_t writer);
   void drop(const wire::FrameHead& head, std::uint64_t writer);
   void skip(const wire::FrameHead& head, std::uint64_t writer);
+
+  void pass(const wire::FrameHead& head);
 
   // What a status says: `ranges` are first, last, first, last, ... of frames that the server did not publish.
   void note_unpublished(std::uint64_t run_id, std::span<const std::uint64_t> ranges);

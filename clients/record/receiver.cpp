@@ -17,6 +17,7 @@ constexpr std::size_t batch_bytes = std::size_t{64} << 20;  // taken before they
 constexpr auto longest_wait = 100ms;
 constexpr auto finishing_time = 500ms;  // for the rest of a frame, or one more status
 constexpr auto finishing_period = 5ms;
+constexpr auto discarding_time = 1s;
 constexpr auto room_time = 2s;  // for the disk to take what is in hand when the end has come
 
 std::int64_t system_time() {
@@ -53,6 +54,11 @@ Receiver::Receiver(const Subscriptions& subscriptions, ItemQueue& queue, std::st
       guard_(std::move(guard)),
       wait_set_(std::move(wait_set)),
       ledger_(limits.frames) {}
+
+Receiver::~Receiver() {
+  stop();
+  discard_rest();
+}
 
 void Receiver::start(std::function<void(const Progress&)> after_batch) {
   set_paused(paused_asked_);
@@ -239,6 +245,7 @@ void Receiver::admit(FrameBatch::Arrival& arrival) {
     const Verdict verdict = ledger_.judge(arrival.head);
     if (verdict == Verdict::invalid) ++reception_.unreadable;
     if (verdict == Verdict::paused) ledger_.skip(arrival.head, arrival.writer);
+    if (verdict == Verdict::beyond) ledger_.pass(arrival.head);
     if (verdict != Verdict::record) return;
     if (!first_frame_) first_frame_ = Clock::now();
   }
@@ -279,6 +286,18 @@ void Receiver::fail(const std::string& error) {
   if (reception_.end == EndReason::failed) return;
   reception_.end = EndReason::failed;
   reception_.error = error;
+}
+
+// The readers go next. Deleting one that is full never ends: Cyclone's thread waits for room in it, and the deletion
+// for that thread.
+void Receiver::discard_rest() {
+  const auto latest = Clock::now() + discarding_time;
+  for (const wire::RawReader& reader : subscriptions_.raw()) {
+    for (std::size_t count = batch_samples; count == batch_samples && Clock::now() < latest;) {
+      const auto taken = reader.take_raw([](const wire::RawSample&) {}, batch_samples);
+      count = taken ? taken.value() : 0;
+    }
+  }
 }
 
 }  // namespace flexcast::record

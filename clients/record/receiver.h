@@ -33,7 +33,7 @@ class Receiver {
   static wire::Result<std::unique_ptr<Receiver>> create(const wire::Participant& participant,
                                                         const Subscriptions& subscriptions, ItemQueue& queue,
                                                         const std::string& world, const Limits& limits);
-  ~Receiver() { stop(); }
+  ~Receiver();
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
@@ -80,6 +80,7 @@ class Receiver {
   Pushed push(wire::TopicId topic, Item item);
   bool may_wait_for_room();
   void fail(const std::string& error);
+  void discard_rest();
 
   const Subscriptions& subscriptions_;
   ItemQueue& queue_;

@@ -57,6 +57,10 @@ void RunLedger::drop(const wire::FrameHead& head) {
   dropped_.add(head.frame);
 }
 
+void RunLedger::pass(const wire::FrameHead& head) {
+  if (head.chunk < next_.size()) next_[head.chunk] = std::max(next_[head.chunk], head.frame + 1);
+}
+
 void RunLedger::skip(const wire::FrameHead& head) {
   newest_ = std::max(newest_, head.frame);
   // Chunks of several frames may come mixed up: only what lies between two skipped frames can be filled.
@@ -87,8 +91,17 @@ std::uint64_t RunLedger::joined_at() const {
 
 std::uint64_t RunLedger::in_progress() const {
   const auto newer = complete_.empty() ? parts_.begin() : parts_.upper_bound(complete_.last());
-  return static_cast<std::uint64_t>(
-      std::count_if(newer, parts_.end(), [&](const auto& part) { return !dropped_.contains(part.first); }));
+  return static_cast<std::uint64_t>(std::count_if(
+      newer, parts_.end(), [&](const auto& part) { return may_become_complete(part.first, part.second); }));
+}
+
+bool RunLedger::may_become_complete(std::uint64_t frame, const std::vector<bool>& part) const {
+  if (dropped_.contains(frame)) return false;
+  // Those with the same chunk number come in the order of their frames.
+  for (std::size_t chunk = 0; chunk < part.size(); ++chunk) {
+    if (!part[chunk] && chunk < next_.size() && next_[chunk] > frame) return false;
+  }
+  return true;
 }
 
 std::uint64_t RunLedger::missing() const {

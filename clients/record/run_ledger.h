@@ -75,6 +75,9 @@ class RunLedger {
   // Takes note of a chunk that did not fit the queue.
   void drop(const wire::FrameHead& head);
 
+  // Takes note of a chunk that is not wanted: older frames can no longer get a chunk of that number.
+  void pass(const wire::FrameHead& head);
+
   // Takes note of a chunk that came while the recorder was paused. What is lost between two of these counts as paused.
   void skip(const wire::FrameHead& head);
   void resume() { skipping_.reset(); }
@@ -106,6 +109,7 @@ class RunLedger {
     double time = 0;
   };
   std::uint64_t joined_at() const;
+  bool may_become_complete(std::uint64_t frame, const std::vector<bool>& part) const;
   GapCause cause_of(std::uint64_t frame) const;
 
   std::uint64_t run_id_;
@@ -122,7 +126,7 @@ class RunLedger {
   FrameRanges cut_;                                   // the file could not take a chunk
   std::optional<std::uint64_t> skipping_;             // the newest frame of the pause that lasts
   std::map<std::uint64_t, std::vector<bool>> parts_;  // which chunks came, of frames that are not complete
-  std::vector<std::uint64_t> next_;                   // of each chunk number: 1 + the last frame recorded
+  std::vector<std::uint64_t> next_;                   // of each chunk number: 1 + the last frame recorded or passed
 };
 
 }  // namespace flexcast::record

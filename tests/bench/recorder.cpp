@@ -191,6 +191,9 @@ Cost measure_bare_loop(const Settings& settings) {
     (void)value_of(reader.take_raw(take));
   }
   const Cost cost = meter ? meter->cost(bytes) : Cost{};
+  // A reader that is full could not be deleted.
+  while (value_of(reader.take_raw([](const wire::RawSample&) {})) > 0) {
+  }
   std::filesystem::remove(path);
   return cost;
 }

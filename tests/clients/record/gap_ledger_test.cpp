@@ -304,6 +304,19 @@ TEST(GapLedger, StartsNoFrameBeyondThoseItWasAskedFor) {
   EXPECT_TRUE(ledger.gaps().empty());
 }
 
+TEST(GapLedger, DoesNotWaitForAFrameThatCanNoLongerBecomeComplete) {
+  GapLedger ledger(1);
+  EXPECT_EQ(offer(ledger, head_of(0, 0, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(1, 0, 2)), Verdict::beyond) << "frame 0 may be the one that was asked for";
+  ledger.pass(head_of(1, 0, 2));
+  EXPECT_EQ(offer(ledger, head_of(1, 1, 2)), Verdict::beyond);
+  ledger.pass(head_of(1, 1, 2));
+  EXPECT_EQ(ledger.in_progress(), 0u) << "the second chunk of frame 0 was lost";
+  EXPECT_EQ(offer(ledger, head_of(2, 0, 2)), Verdict::record);
+  EXPECT_EQ(offer(ledger, head_of(2, 1, 2)), Verdict::record);
+  EXPECT_TRUE(ledger.is_full());
+}
+
 TEST(GapLedger, LetsFramesInProgressBecomeCompleteAfterTheEnd) {
   GapLedger ledger;
   offer(ledger, head_of(0, 0, 2));
