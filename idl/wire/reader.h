@@ -108,7 +108,8 @@ class Reader : public UntypedReader {
     return Reader(std::move(endpoint).value());
   }
 
-  // Takes up to `most` samples without copying them twice: on loan. Empty when there is none.
+  // Takes up to `most` samples without copying them twice: on loan. Empty when there is none. Every call on one reader
+  // must ask for the same number: Cyclone 0.10.2 fills as many pointers as its largest loan so far had.
   Result<Samples<T>> take(std::size_t most = 64) const {
     std::vector<void*> samples(most, nullptr);
     std::vector<SampleInfo> infos(most);

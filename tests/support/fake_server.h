@@ -118,7 +118,7 @@ class FakeServer {
     status->rate = 1;
     wire::set_string(status->version, version_);
     {
-      const std::scoped_lock lock(unpublished_mutex_);
+      const std::scoped_lock run_lock(unpublished_mutex_);
       status->run_id = run_id_;
       wire::copy(status->unpublished, unpublished_);
     }
