@@ -6,6 +6,7 @@
 
 #include "tests/support/lockstep_recorder.h"
 #include "tests/support/network.h"
+#include "tests/system/recording.h"
 #include "tests/system/replay.h"
 #include "tests/system/scenes.h"
 #include "tests/system/system_test.h"
@@ -51,6 +52,32 @@ TEST_F(LockstepSystem, ARecorderFarSlowerThanTheWorldGetsEveryFrameInEveryRun) {
       ASSERT_EQ(taken[i].frame, i);
       ASSERT_EQ(taken[i].state_hash, truth[i]);
     }
+  }
+}
+
+// The recorder stands still most of the time: it is stopped for 45 of every 50 ms.
+void stutter(Process& recorder) {
+  for (int i = 0; i < 1000 && recorder.runs(); ++i) {
+    recorder.send(SIGSTOP);
+    std::this_thread::sleep_for(45ms);
+    recorder.send(SIGCONT);
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+TEST_F(LockstepSystem, EveryRunGivesAFileWithTheSameFramesHoweverOftenTheRecorderIsStopped) {
+  const auto scene = write_file("rope.toml", rope_scene());
+  constexpr std::uint64_t steps = 500;
+  const auto truth = calc_hashes(scene, steps);
+  const int runs = std::getenv("FLEXCAST_LONG") != nullptr ? 20 : 3;
+  for (int run = 0; run < runs; ++run) {
+    const auto server = start_server(scene, {"--lockstep=1", "--rate", "max", "--until", "0.5", "--exit"});
+    const std::string file = "run" + std::to_string(run) + ".mcap";
+    const auto recorder = start_recorder(file, {"--frames", std::to_string(steps + 1)});
+    stutter(*recorder);
+    EXPECT_EQ(await_recorder(*recorder).at("gaps"), 0);
+    EXPECT_EQ(server->wait(patience), 0);
+    EXPECT_EQ(hashes_of(read_recording(path(file)).frames), truth) << file;
   }
 }
 
