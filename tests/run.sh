@@ -14,11 +14,11 @@ source server/setup.sh
 install_packages build tests
 (cd tests/interop && npm ci --no-audit --no-fund --loglevel=error)
 
-# The test programs alone, without the reference cases, which would take too long: tests of this build take the name
-# sanitized.PROGRAM below. GCC warns of uninitialised values in instrumented library code that are none, so warnings are
-# errors in the other build only.
+# The test programs alone, without the reference cases and the lab's studies, which would take too long: tests of this
+# build take the name sanitized.PROGRAM below. GCC warns of uninitialised values in instrumented library code that are
+# none, so warnings are errors in the other build only.
 build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 \
-  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_WERROR=OFF \
+  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF \
   -DFLEXCAST_PRECOMPILED_HEADERS=ON
 build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize" \
   -DFLEXCAST_PRECOMPILED_HEADERS=ON
