@@ -45,8 +45,10 @@ Extremes find_extremes(const Limits& limits) {
 
 std::string make_extremes_text(const Extreme& least, const Extreme& largest) {
   const std::string from = short_text("%.4f", least.ratio), to = short_text("%.4f", largest.ratio);
+  const bool agree = from == to && least.ratio >= 1.0;
   return "measured over predicted: " +
-         (from == to ? from + " everywhere" : from + " (" + least.where + ") to " + to + " (" + largest.where + ")") +
+         (agree ? from + " everywhere"
+                : "from " + from + " (" + least.where + ") to " + to + " (" + largest.where + ")") +
          "; at a step 1 % longer than the measured one growth was seen\n";
 }
 

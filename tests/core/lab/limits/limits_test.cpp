@@ -260,6 +260,8 @@ TEST(LimitsReport, NamesAnAdvertisedLimitAboveTheTrueOne) {
   EXPECT_NE(text.find("a bug of the engine"), std::string::npos);
   EXPECT_NE(text.find("no limit"), std::string::npos);
   EXPECT_NE(text.find("BLOWS UP"), std::string::npos);
+  limits.panels[0].curves[0].points[0].limit = {1.00001, true, 1.0};
+  EXPECT_NE(make_limits_text(limits).find("1.0000 everywhere"), std::string::npos) << make_limits_text(limits);
   const auto json = make_limits_json(limits);
   EXPECT_TRUE(json["implicit"][0]["gain"].is_null());
   EXPECT_EQ(make_limits_plot(limits).panels.back().series.back().notes[0], "xpbd blows up");
