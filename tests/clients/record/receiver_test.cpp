@@ -1,6 +1,8 @@
 // What happens when the queue to the disk is full.
 #include "clients/record/receiver.h"
 
+#include <thread>
+
 #include "tests/clients/record/recordings.h"
 
 namespace flexcast::record {
@@ -39,11 +41,13 @@ TEST_F(FullQueue, LosesFramesThatAreNamed) {
 
 TEST_F(FullQueue, LosesNothingWhereTheServerWaits) {
   start(true);
-  for (int i = 0; i < 5000 && receiver->progress().frames < 50; ++i) {
-    queue.pop(0ns);
-    std::this_thread::sleep_for(1ms);
-  }
-  EXPECT_EQ(receiver->progress().frames, 50u);
+  const std::jthread disk([this](const std::stop_token& stop) {  // slow, but it goes on until the receiver has ended
+    while (!stop.stop_requested()) {
+      queue.pop(0ns);
+      std::this_thread::sleep_for(1ms);
+    }
+  });
+  EXPECT_TRUE(eventually([&] { return receiver->progress().frames == 50; }));
   EXPECT_EQ(receiver->progress().contiguous_end, 50u);
   receiver->stop();
   EXPECT_TRUE(receiver->reception().gaps.empty());
