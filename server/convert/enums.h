@@ -1,11 +1,23 @@
 // Our enumerations and the contract's have the same order.
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+
 #include "idl/wire/types.h"
 #include "server/convert/command_types.h"
 #include "server/convert/notice_types.h"
 
 namespace flexcast::server {
+
+// What a message says, also where it is none of the enumerators: such a value must not be read as the enumeration.
+template <class Enum>
+std::uint32_t number_of(const Enum& enumerator) {
+  static_assert(sizeof(Enum) == sizeof(std::uint32_t));
+  std::uint32_t number = 0;
+  std::memcpy(&number, &enumerator, sizeof number);
+  return number;
+}
 
 inline flexcast_WorldState to_wire(WorldState state) {
   return static_cast<flexcast_WorldState>(state);

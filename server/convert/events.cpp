@@ -33,8 +33,8 @@ wire::Owned<flexcast_Event> to_wire(const Event& event, std::string_view world) 
 
 Result<Event> from_wire(const flexcast_Event& message) {
   const std::string name = "event " + std::to_string(message.index);
-  if (message.kind > flexcast_EVENT_WARNING || message.state > flexcast_WORLD_FAILED ||
-      message.command_kind > flexcast_COMMAND_STATUS) {
+  if (number_of(message.kind) > flexcast_EVENT_WARNING || number_of(message.state) > flexcast_WORLD_FAILED ||
+      number_of(message.command_kind) > flexcast_COMMAND_STATUS) {
     return Error{name + " is of a kind that is not known"};
   }
   Event event;
