@@ -48,7 +48,7 @@ class FakeServer {
     const std::scoped_lock lock(status_mutex_);
     (void)statuses_.dispose(*status);
   }
-  std::atomic<int> statuses{0};    // sent
+  std::atomic<int> statuses{0};  // sent
 
   const wire::Participant& participant() const { return participant_; }
 
