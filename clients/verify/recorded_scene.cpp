@@ -3,7 +3,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
+#include <utility>
 
+#include "core/scene/file_places.h"
 #include "idl/wire/fill.h"
 
 namespace flexcast::verify {
@@ -32,38 +36,50 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-// Where the scene lies, so deep that its files may lie beside it or some folders above.
-const fs::path depth = "a/b/c/d/e/f/g/h";
+// Files in a folder of their own, whatever names a scene has for them: absolute, above it, or beside it. What the scene
+// names in one folder lies in one folder here, so that the halves of a pair find each other.
+class FileStore {
+ public:
+  explicit FileStore(fs::path root) : root_(std::move(root)) {}
 
-Result<void> write_file(const fs::path& root, const flexcast_SceneFile& file) {
-  const std::string name(wire::text(file.name));
-  const fs::path inside = (depth / name).lexically_normal();
-  if (fs::path(name).is_absolute() || name.empty() || inside.begin()->string() == "..") {
-    return Error{"the scene's file '" + name + "' has no place beside the scene; name it by a relative path there"};
+  fs::path place_of(const fs::path& name) {
+    const auto folder = folders_.emplace(name.parent_path().string(), folders_.size()).first;
+    return root_ / std::to_string(folder->second) / name.filename();
   }
-  const fs::path path = root / inside;
-  std::error_code failed;
-  fs::create_directories(path.parent_path(), failed);
-  std::ofstream stream(path, std::ios::binary);
-  const auto content = wire::elements(file.content);
-  stream.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
-  if (failed || !stream.flush()) return Error{"cannot write " + path.string()};
-  return {};
-}
+
+  Result<void> write(const flexcast_SceneFile& file) {
+    const fs::path name = wire::text(file.name);
+    const std::string last = name.filename().string();
+    if (last.empty() || last == "." || last == "..") {
+      return Error{"the recording has a file of the scene under the name '" + name.string() + "', which names none"};
+    }
+    const fs::path path = place_of(name);
+    std::error_code failed;
+    fs::create_directories(path.parent_path(), failed);
+    std::ofstream stream(path, std::ios::binary);
+    const auto content = wire::elements(file.content);
+    stream.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+    if (failed || !stream.flush()) return Error{"cannot write " + path.string()};
+    return {};
+  }
+
+ private:
+  fs::path root_;
+  std::map<std::string, std::size_t> folders_;  // by name, numbered as they come
+};
 
 }  // namespace
 
 Result<Scene> load_recorded_scene(const flexcast_SceneInfo& info) {
   const TemporaryFolder folder;
   if (folder.path().empty()) return Error{"cannot make a temporary folder for the scene's files"};
-  std::error_code failed;
-  fs::create_directories(folder.path() / depth, failed);
-  if (failed) return Error{"cannot make a folder below " + folder.path().string() + ": " + failed.message()};
+  FileStore store(folder.path());
   for (const flexcast_SceneFile& file : wire::elements(info.files)) {
-    if (auto written = write_file(folder.path(), file); !written) return written.error();
+    if (auto written = store.write(file); !written) return written.error();
   }
-  return load_scene_text(std::string(wire::text(info.scene_text)), "the recorded scene", folder.path() / depth,
-                         wire::strings(info.overrides));
+  return load_scene_text(
+      std::string(wire::text(info.scene_text)), "the recorded scene",
+      [&store](const fs::path& name) { return store.place_of(name); }, wire::strings(info.overrides));
 }
 
 }  // namespace flexcast::verify

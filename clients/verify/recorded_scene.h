@@ -6,8 +6,8 @@
 
 namespace flexcast::verify {
 
-// Loads text, overrides and files; these lie in a folder of their own while it does. Errors say what does not fit,
-// among them names of files that would lie outside that folder.
+// Loads text, overrides and files. While it does, these lie in a temporary folder, and no other is read or written:
+// whatever the scene calls them (absolute names, too), they are looked for there. Errors say what does not fit.
 Result<Scene> load_recorded_scene(const flexcast_SceneInfo& info);
 
 }  // namespace flexcast::verify

@@ -49,8 +49,7 @@ std::string read_bytes(const std::filesystem::path& path) {
 
 class Builder {
  public:
-  Builder(const SceneDescription& description, const std::filesystem::path& directory)
-      : description_(description), directory_(directory) {}
+  Builder(const SceneDescription& description, const FilePlaces& files) : description_(description), files_(files) {}
 
   BuiltScene build() {
     built_.model.gravity = description_.gravity;
@@ -69,7 +68,7 @@ class Builder {
 
  private:
   void add_body(const BodyDescription& description) {
-    MeshFile file = make_mesh(description.mesh, description.law != nullptr, directory_);
+    MeshFile file = make_mesh(description.mesh, description.law != nullptr, files_);
     Mesh& mesh = file.mesh;
     place_mesh(description, mesh);
     const auto midsides = description.quadratic ? make_quadratic(mesh) : std::vector<Midsides>{};
@@ -266,7 +265,7 @@ class Builder {
   }
 
   const SceneDescription& description_;
-  const std::filesystem::path& directory_;
+  const FilePlaces& files_;
   std::vector<Vec3> rest_;
   std::unordered_map<std::int32_t, std::string> handle_of_;  // by particle
   BuiltScene built_;
@@ -274,8 +273,8 @@ class Builder {
 
 }  // namespace
 
-BuiltScene build_scene(const SceneDescription& description, const std::filesystem::path& directory) {
-  return Builder(description, directory).build();
+BuiltScene build_scene(const SceneDescription& description, const FilePlaces& files) {
+  return Builder(description, files).build();
 }
 
 }  // namespace flexcast

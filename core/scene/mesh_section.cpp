@@ -53,9 +53,13 @@ Mesh generate(const MeshDescription& description) {
 }
 
 // `mesh.file = "x.msh" cannot be used: REASON`
-MeshFile read_file(const MeshDescription& description, const std::filesystem::path& directory) {
-  Result<MeshFile> file = read_mesh_file(directory / description.file);
+MeshFile read_file(const MeshDescription& description, bool fem, const FilePlaces& files) {
+  Result<MeshFile> file = read_mesh_file(files(description.file));
   if (!file) refuse(description.place, "= \"" + description.file + "\" cannot be used: " + file.error().message);
+  if (fem && file.value().mesh.tetrahedra.empty())
+    refuse(description.place, "= \"" + description.file +
+                                  "\" is a surface; model = \"fem\" needs tetrahedra (allowed: a file of these, or "
+                                  "model = \"mass_spring\")");
   if (static_cast<double>(file.value().mesh.nodes.size()) > most_particles)
     refuse(description.place, "= \"" + description.file + "\" has more than " + count_text(most_particles) + " nodes");
   for (Vec3& node : file.value().mesh.nodes) node *= description.scale;
@@ -84,9 +88,9 @@ MeshDescription read_mesh_section(const TableEntry& entry, bool fem) {
   return mesh;
 }
 
-MeshFile make_mesh(const MeshDescription& description, bool fem, const std::filesystem::path& directory) {
+MeshFile make_mesh(const MeshDescription& description, bool fem, const FilePlaces& files) {
   MeshFile made =
-      description.file.empty() ? MeshFile{generate(description), {}, {}} : read_file(description, directory);
+      description.file.empty() ? MeshFile{generate(description), {}, {}} : read_file(description, fem, files);
   if (!fem && made.mesh.springs.empty()) made.mesh.springs = make_edges(made.mesh.tetrahedra);
   if (fem) made.mesh.springs.clear();
   if (!fem) made.mesh.tetrahedra.clear();

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/scene/build.h"
+#include "core/scene/file_places.h"
 #include "core/scene/overrides.h"
 #include "core/scene/place.h"
 #include "core/scene/scene_reader.h"
@@ -76,10 +77,10 @@ std::unique_ptr<Simulation> simulate(const SceneDescription& description, BuiltS
   return simulation;
 }
 
-Scene load(const std::string& text, const std::string& origin, const std::filesystem::path& directory,
+Scene load(const std::string& text, const std::string& origin, const FilePlaces& files,
            const std::vector<std::string>& overrides) {
   const SceneDescription description = describe(text, origin, overrides);
-  BuiltScene built = build_scene(description, directory);
+  BuiltScene built = build_scene(description, files);
 
   Scene scene;
   scene.name = description.name;
@@ -92,6 +93,11 @@ Scene load(const std::string& text, const std::string& origin, const std::filesy
   scene.notes = std::move(built.notes);
   scene.simulation = simulate(description, std::move(built));
   return scene;
+}
+
+// Relative names start in the directory.
+FilePlaces make_places(const std::filesystem::path& directory) {
+  return [directory](const std::filesystem::path& name) { return directory / name; };
 }
 
 Result<std::string> read_text(const std::filesystem::path& file) {
@@ -131,7 +137,12 @@ Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<st
 
 Result<Scene> load_scene_text(const std::string& text, const std::string& origin,
                               const std::filesystem::path& directory, const std::vector<std::string>& overrides) {
-  return guard(origin, [&] { return load(text, origin, directory, overrides); });
+  return load_scene_text(text, origin, make_places(directory), overrides);
+}
+
+Result<Scene> load_scene_text(const std::string& text, const std::string& origin, const FilePlaces& files,
+                              const std::vector<std::string>& overrides) {
+  return guard(origin, [&] { return load(text, origin, files, overrides); });
 }
 
 Result<SceneDescription> describe_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -142,7 +153,8 @@ Result<SceneDescription> describe_scene(const std::filesystem::path& file, const
 
 Result<std::unique_ptr<Simulation>> make_simulation(const SceneDescription& description,
                                                     const std::filesystem::path& directory) {
-  return guard(description.name, [&] { return simulate(description, build_scene(description, directory)); });
+  return guard(description.name,
+               [&] { return simulate(description, build_scene(description, make_places(directory))); });
 }
 
 }  // namespace flexcast

@@ -56,6 +56,29 @@ TEST_F(VerifySystem, ARecordingOfEveryKindOfCommandIsEqualToTheLastBit) {
   }
 }
 
+// The meshes are the recording's: their files are gone when it is executed again.
+TEST_F(VerifySystem, AMeshNamedByAnAbsolutePathComesFromTheRecording) {
+  const auto mesh = write_file("meshes/corner.node", "4 3 0 0\n0 0 0 0\n1 0.1 0 0\n2 0 0.1 0\n3 0 0 0.1\n");
+  write_file("meshes/corner.ele", "1 4 0\n0 0 1 2 3\n");
+  const std::string scene =
+      "name = \"corner\"\ngravity = [0, 0, -9.81]\n[[body]]\nname = \"stone\"\nmodel = \"fem\"\n"
+      "mesh = { file = \"" +
+      mesh.string() +
+      "\" }\n"
+      "material = { law = \"corotational\", young = 1e5, poisson = 0.3, density = 1000.0 }\n";
+  {
+    const auto server = start_server(write_file("corner.toml", scene), {"--paused"});
+    const auto recorder = start_recorder("run.mcap");
+    ASSERT_EQ(ctl({"step", "20"}).code, 0);
+    wait_for_frames(21);
+    end_recorder(*recorder);
+  }
+  std::filesystem::remove_all(path("meshes"));
+  const Ended ended = verify("run.mcap");
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(path("meshes")));
+}
+
 TEST_F(VerifySystem, WhatCannotBeVerifiedIsAFailureAndBadUsageIsTold) {
   const auto server = start_server(write_file("rope.toml", rope_scene()), {"--paused"});
   const auto recorder = start_recorder("run.mcap");

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "clients/verify/recorded_scene.h"
 #include "clients/verify/report_text.h"
+#include "idl/wire/fill.h"
 #include "idl/wire/frame_head.h"
 #include "tests/clients/verify/reports.h"
 
@@ -126,32 +128,77 @@ TEST(Verify, AFrameThatNoStepGivesIsADifference) {
   EXPECT_EQ(run.verdict, Verdict::differs) << run.reason;
 }
 
-// A reset makes the contract anew under the kept values, which is not the same as to set them afterwards.
-// A parameter of a handle moves particles at once; a frame of before that had to wait at the server shows it.
-TEST(Verify, MeshFilesComeFromTheRecording) {
-  const server::test::Folder folder;
-  std::ofstream(folder.path() / "tetrahedron.node") << "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
-  std::ofstream(folder.path() / "tetrahedron.ele") << "1 4 0\n0 0 1 2 3\n";
-  std::filesystem::create_directory(folder.path() / "scenes");
+// What a run of a scene gives whose mesh is a TetGen pair in `folder`, called `name`; the files are gone by then.
+Report report_of_mesh_named(const std::filesystem::path& folder, const std::string& name) {
+  std::ofstream(folder / "tetrahedron.node") << "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+  std::ofstream(folder / "tetrahedron.ele") << "1 4 0\n0 0 1 2 3\n";
+  std::filesystem::create_directory(folder / "scenes");
   const std::string text = R"(name = "one"
 gravity = [0, 0, -9.81]
 [[body]]
 name = "stone"
 model = "fem"
-mesh = { file = "../tetrahedron.node" }
+mesh = { file = ")" + name +
+                           R"(" }
 material = { law = "corotational", young = 1e5, poisson = 0.3, density = 1000.0 }
 )";
-  auto scene = load_scene_text(text, "scene", folder.path() / "scenes");
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
   server::WorldOptions options;
-  options.load_scene = [&](const std::string&) { return load_scene_text(text, "scene", folder.path() / "scenes"); };
+  options.load_scene = [&](const std::string&) { return load_scene_text(text, "scene", folder / "scenes"); };
   Session session(test::pair_scene(), options);
-  session.apply(server::test::load_scene("one"));
+  const auto reply = session.apply(server::test::load_scene("one"));
+  EXPECT_EQ(reply.outcome, server::Outcome::applied) << reply.reason;
   session.run(10);
-  std::filesystem::remove(folder.path() / "tetrahedron.node");
-  const Report report = report_of(session);
-  EXPECT_TRUE(report.verified()) << to_text(report);
-  EXPECT_EQ(report.runs.at(1).frames, 11u);
+  std::filesystem::remove(folder / "tetrahedron.node");
+  std::filesystem::remove(folder / "tetrahedron.ele");
+  return report_of(session);
+}
+
+TEST(Verify, MeshFilesComeFromTheRecordingWhateverTheSceneCallsThem) {
+  const server::test::Folder folder;
+  const std::string up = "../";
+  std::string far_up = "../tetrahedron.ele";  // more folders up than there are, and down again
+  for (int i = 0; i < 30; ++i) far_up = up + far_up;
+  far_up.replace(far_up.rfind("tetra"), std::string::npos, folder.path().string().substr(1) + "/tetrahedron.ele");
+  for (const std::string& name :
+       {std::string("../tetrahedron.node"), (folder.path() / "tetrahedron.node").string(),
+        (folder.path() / "tetrahedron.ele").string(), std::string(".././scenes/../tetrahedron.ele"), far_up}) {
+    const Report report = report_of_mesh_named(folder.path(), name);
+    EXPECT_TRUE(report.verified()) << name << "\n" << to_text(report);
+    EXPECT_EQ(report.runs.at(1).frames, 11u) << name;
+  }
+}
+
+// A recording is read from anywhere: it may not make files elsewhere, nor read what it did not bring.
+TEST(Verify, AMeshOfAnAbsoluteNameIsNeitherReadNorWrittenThere) {
+  const server::test::Folder folder;
+  const auto mesh = folder.path() / "tetrahedron.node";
+  const Report report = report_of_mesh_named(folder.path(), mesh.string());
+  EXPECT_TRUE(report.verified());
+  EXPECT_FALSE(std::filesystem::exists(mesh));
+
+  std::ofstream(mesh) << "0 3 0 0\n";  // were it read, the run could not be
+  Session session(test::pair_scene());
+  session.run(3);
+  wire::Owned<flexcast_SceneInfo> info = server::make_scene_info(session.runs.at(0), "world");
+  wire::set_string(info->scene_text, "name = \"one\"\n[[body]]\nname = \"stone\"\nmodel = \"fem\"\nmesh = { file = \"" +
+                                         mesh.string() +
+                                         "\" }\nmaterial = { law = \"linear\", young = 1e5, poisson = 0.3, "
+                                         "density = 1000.0 }\n");
+  const auto scene = load_recorded_scene(*info);
+  ASSERT_FALSE(scene.ok());
+  EXPECT_NE(scene.error().message.find("there is no such file"), std::string::npos) << scene.error().message;
+}
+
+TEST(Verify, AFileOfTheSceneThatHasNoNameIsRefused) {
+  Session session(test::pair_scene());
+  wire::Owned<flexcast_SceneInfo> info = server::make_scene_info(session.runs.at(0), "world");
+  const auto files = wire::resize(info->files, 1);
+  for (const std::string name : {"", "..", "/tmp/.."}) {
+    wire::set_string(files[0].name, name);
+    const auto scene = load_recorded_scene(*info);
+    ASSERT_FALSE(scene.ok()) << name;
+    EXPECT_NE(scene.error().message.find("'" + name + "'"), std::string::npos) << scene.error().message;
+  }
 }
 
 TEST(Verify, JsonHasWhatTheTextSays) {
