@@ -126,6 +126,13 @@ bool FileCursor::has_bytes(std::uint64_t count, const char* expected) {
   return !failed();
 }
 
+std::string_view FileCursor::bytes(std::uint64_t count, const char* expected) {
+  if (!has_bytes(count, expected)) return {};
+  const std::string_view bytes = content_.substr(position_, count);
+  position_ += count;
+  return bytes;
+}
+
 void FileCursor::skip_past_line(std::string_view start) {
   if (failed()) return;
   std::string marker = "\n";

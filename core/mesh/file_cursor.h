@@ -39,6 +39,8 @@ class FileCursor {
   void fail(const std::string& what);  // "<name>, line <n>: <what>", the line of the last read
   const std::string& name() const { return name_; }
 
+  std::int64_t read_line() const { return read_line_; }  // of the last read
+
   // From here on the file counts in bytes, not lines.
   void count_bytes() { binary_ = true; }
 
@@ -62,6 +64,11 @@ class FileCursor {
     return value;
   }
 
+  // So many bytes as they are; none after a failure.
+  std::string_view bytes(std::uint64_t count, const char* expected);
+
+  // What comes next, so many bytes at most.
+  std::string_view peek(std::size_t count) const { return content_.substr(position_, count); }
   void skip_white_space();
   // Goes behind the next line that starts with this word.
   void skip_past_line(std::string_view start);

@@ -4,36 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
+#include "core/mesh/node_checks.h"
+#include "core/mesh/offenders.h"
 #include "core/mesh/topology.h"
 
 namespace flexcast {
 namespace {
-
-// Names the first few nodes or elements at fault and counts all of them.
-class Offenders {
- public:
-  void add(std::string name) {
-    if (++count_ <= most_named) names_.push_back(std::move(name));
-  }
-  bool any() const { return count_ > 0; }
-
-  std::string text(const std::string& noun) const {
-    std::string list = noun + (count_ == 1 ? " " : "s ");
-    for (std::size_t i = 0; i < names_.size(); ++i) list += (i == 0 ? "" : ", ") + names_[i];
-    if (count_ > most_named) list += ", ... (" + std::to_string(count_) + " in all)";
-    return list;
-  }
-
- private:
-  static constexpr std::size_t most_named = 5;
-  std::size_t count_ = 0;
-  std::vector<std::string> names_;
-};
 
 // Finds the index of a node by its number in the file.
 class NodeIndex {
@@ -84,31 +63,6 @@ Result<void> check_counts(const NumberedMesh& numbered) {
   }
   if (numbered.nodes.size() > most || numbered.elements.size() > most) {
     return Error{numbered.element_file + ": has more than " + std::to_string(most) + " nodes or elements"};
-  }
-  return {};
-}
-
-Result<void> check_nodes(const NumberedMesh& numbered) {
-  const auto& nodes = numbered.nodes;
-  Offenders not_finite;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i].allFinite()) not_finite.add(node_name(numbered, i));
-  }
-  if (not_finite.any()) {
-    return Error{numbered.node_file + ": coordinates that are not finite numbers: " + not_finite.text("node")};
-  }
-
-  std::vector<std::size_t> order(nodes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t i) { return std::tuple(nodes[i].x(), nodes[i].y(), nodes[i].z(), i); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  Offenders duplicates;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (nodes[order[i]] != nodes[order[i - 1]]) continue;
-    duplicates.add(node_name(numbered, order[i]) + " (as " + node_name(numbered, order[i - 1]) + ")");
-  }
-  if (duplicates.any()) {
-    return Error{numbered.node_file + ": nodes at the same place as another: " + duplicates.text("node")};
   }
   return {};
 }
@@ -204,7 +158,8 @@ int calc_orientation(const std::vector<Vec3>& nodes, const Tetrahedron& tetrahed
 
 Result<MeshFile> check_mesh(const NumberedMesh& numbered) {
   if (auto counts = check_counts(numbered); !counts) return counts.error();
-  if (auto nodes = check_nodes(numbered); !nodes) return nodes.error();
+  const auto number = [&](std::size_t node) { return node_name(numbered, node); };
+  if (auto nodes = check_node_places(numbered.node_file, numbered.nodes, number); !nodes) return nodes.error();
   auto tetrahedra = make_tetrahedra(numbered);
   if (!tetrahedra) return tetrahedra.error();
   if (auto unique = check_duplicate_elements(numbered, tetrahedra.value()); !unique) return unique.error();

@@ -39,15 +39,16 @@ const Arrows arrows = {
     {"server", {"server/convert"}},
 };
 
-// Headers of a library and the one folder that may see them.
-const std::map<std::string, std::string> owners = {
-    {R"(^(dds/|ddsc/|flexcast\.h))", "idl/wire"},
-    {R"(^toml)", "core/scene"},
-    {R"(^lz4)", "clients/mcap"},
-    {R"(^zstd)", "clients/mcap"},
-    {R"(^zlib\.h)", "clients/mcap"},
-    {R"(^xxhash\.h)", "core/sim"},
-    {R"(^tbb/)", "core/base"},
+// Headers of a library and the folder that may see them; of zlib, which MCAP files and VTK's are both packed with, two.
+const std::map<std::string, std::set<std::string>> owners = {
+    {R"(^(dds/|ddsc/|flexcast\.h))", {"idl/wire"}},
+    {R"(^toml)", {"core/scene"}},
+    {R"(^lz4)", {"clients/mcap"}},
+    {R"(^zstd)", {"clients/mcap"}},
+    {R"(^zlib\.h)", {"clients/mcap", "core/mesh"}},
+    {R"(^pugixml)", {"core/mesh"}},
+    {R"(^xxhash\.h)", {"core/sim"}},
+    {R"(^tbb/)", {"core/base"}},
 };
 
 struct Include {
@@ -114,9 +115,9 @@ TEST(Layering, NothingSeesTests) {
 
 TEST(Layering, ThirdPartyLibrariesAreSeenByTheirOneFolder) {
   for (const Include& include : read_includes()) {
-    for (const auto& [pattern, folder] : owners) {
+    for (const auto& [pattern, folders] : owners) {
       if (!std::regex_search(include.target, std::regex(pattern))) continue;
-      EXPECT_EQ(include.folder, folder) << include.file << " includes " << include.target;
+      EXPECT_TRUE(folders.contains(include.folder)) << include.file << " includes " << include.target;
     }
   }
 }

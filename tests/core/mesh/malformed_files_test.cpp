@@ -61,6 +61,39 @@ INSTANTIATE_TEST_SUITE_P(MalformedFiles, DamagedGmshFile,
                            return name.substr(0, name.find('.'));
                          });
 
+class DamagedVtkFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(DamagedVtkFile, IsAnErrorOrAMesh) {
+  const FileContent file = data_file(GetParam());
+  try_all_damages(file.bytes, [&](const std::string& bytes) {
+    expect_error_or_mesh(read_vtk_file({file.name, bytes}));
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(MalformedFiles, DamagedVtkFile,
+                         testing::Values("cube_42_ascii.vtk", "cube_42_binary.vtk", "cube_51_ascii.vtk",
+                                         "cube_51_binary.vtk", "cube_ascii_plain.vtu", "cube_binary_zlib.vtu",
+                                         "cube_appended_zlib.vtu", "cube_appended64_plain.vtu"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           for (char& c : name) c = c == '.' ? '_' : c;
+                           return name;
+                         });
+
+TEST(MalformedFiles, ADamagedSurfaceIsAnErrorOrCloth) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1 1 1\nvn 0 0 1\nf 1/2/3 2//1 -2 \\\n 4\nf 1 2 -1\n";
+  try_all_damages(text, [](const std::string& bytes) {
+    const auto file = read_obj_text(bytes);
+    if (!file.ok()) {
+      EXPECT_FALSE(file.error().message.empty());
+      return;
+    }
+    const auto nodes = static_cast<std::int32_t>(file.value().mesh.nodes.size());
+    for (const auto& [p, q] : file.value().mesh.springs) ASSERT_TRUE(0 <= p && p < q && q < nodes);
+    ASSERT_FALSE(file.value().mesh.triangles.empty());
+  });
+}
+
 TEST(MalformedFiles, EveryCutOfAGmshFileIsRefused) {
   for (const char* name : {"cube_22_ascii.msh", "cube_22_binary.msh", "cube_41_ascii.msh", "cube_41_binary.msh"}) {
     const FileContent file = data_file(name);

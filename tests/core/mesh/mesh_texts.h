@@ -10,7 +10,10 @@
 #include "core/mesh/file_cursor.h"
 #include "core/mesh/gmsh_reader.h"
 #include "core/mesh/mesh_checks.h"
+#include "core/mesh/obj_reader.h"
 #include "core/mesh/tetgen_reader.h"
+#include "core/mesh/vtk_legacy_reader.h"
+#include "core/mesh/vtu_reader.h"
 
 namespace flexcast::mesh_texts {
 
@@ -56,6 +59,31 @@ inline Result<MeshFile> read_gmsh_text(const std::string& text) {
 inline Result<MeshFile> read_tetgen_text(const std::string& node, const std::string& ele) {
   const auto numbered = parse_tetgen({"a.node", node}, {"a.ele", ele});
   return numbered ? check_mesh(numbered.value()) : numbered.error();
+}
+
+inline Result<MeshFile> read_obj_text(const std::string& text) {
+  const auto surface = parse_obj({"a.obj", text});
+  return surface ? make_cloth(surface.value()) : surface.error();
+}
+
+inline Result<MeshFile> read_vtu_file(const FileContent& file) {
+  const auto numbered = parse_vtu(file);
+  return numbered ? check_mesh(numbered.value()) : numbered.error();
+}
+
+inline Result<MeshFile> read_vtu_text(const std::string& text) {
+  return read_vtu_file({"a.vtu", text});
+}
+
+// Either, by its suffix.
+inline Result<MeshFile> read_vtk_file(const FileContent& file) {
+  if (file.name.ends_with(".vtu")) return read_vtu_file(file);
+  const auto numbered = parse_vtk_legacy(file);
+  return numbered ? check_mesh(numbered.value()) : numbered.error();
+}
+
+inline Result<MeshFile> read_vtk_text(const std::string& text) {
+  return read_vtk_file({"a.vtk", text});
 }
 
 // Refused with one sentence that has all these parts.
