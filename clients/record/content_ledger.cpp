@@ -17,6 +17,11 @@ void ContentLedger::note(wire::TopicId topic, std::int64_t log_time, mcap::Bytes
   if (topic == wire::TopicId::scene) note_scene(bytes);
 }
 
+void ContentLedger::note(const AccountNote& account) {
+  frames_.note(account);
+  for (const auto& [topic, count] : account.messages) dropped_[topic] = std::max(dropped_[topic], count);
+}
+
 void ContentLedger::note_frame(std::int64_t log_time, mcap::Bytes bytes) {
   const auto head = wire::peek_frame_head(bytes);
   const Verdict verdict = head ? frames_.judge(head.value()) : Verdict::invalid;
@@ -44,6 +49,8 @@ Reception ContentLedger::reception() const {
   Reception reception;
   reception.runs = frames_.runs();
   reception.gaps = frames_.gaps();
+  reception.pauses = frames_.pauses();
+  reception.dropped = dropped_;
   reception.unreadable = unreadable_;
   reception.server_version = server_version_;
   if (first_frame_) reception.seconds = 1e-9 * static_cast<double>(last_time_ - *first_frame_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,13 +18,16 @@ class ContentLedger {
   // `log_time`: ns since 1970.
   void note(wire::TopicId topic, std::int64_t log_time, mcap::Bytes bytes);
 
+  // What the recorder has said of frames.
+  void note(const AccountNote& account);
+
   // The file could not take this chunk.
   void lose(const wire::FrameHead& head) { frames_.lose(head); }
 
   const GapLedger& frames() const { return frames_; }
   const std::string& world() const { return world_; }  // "" before the first message
 
-  // Without what only the recorder knew: why it ended and what it dropped.
+  // Without why the recorder ended; what it dropped as far as its notes say.
   Reception reception() const;
 
  private:
@@ -36,6 +40,7 @@ class ContentLedger {
   std::string server_version_;
   std::uint64_t server_id_ = 0;  // of the newest status
   std::uint64_t unreadable_ = 0;
+  std::map<wire::TopicId, std::uint64_t> dropped_;  // messages
   std::optional<std::int64_t> first_frame_;
   std::int64_t last_time_ = 0;
 };

@@ -57,6 +57,14 @@ std::vector<FrameRange> FrameRanges::ranges() const {
   return list;
 }
 
+std::vector<FrameRange> FrameRanges::ranges_from(std::uint64_t frame) const {
+  std::vector<FrameRange> list;
+  auto at = ranges_.upper_bound(frame);
+  if (at != ranges_.begin() && std::prev(at)->second >= frame) --at;
+  for (; at != ranges_.end(); ++at) list.push_back({std::max(at->first, frame), at->second});
+  return list;
+}
+
 FrameRanges::Stretch FrameRanges::stretch(std::uint64_t frame) const {
   const auto next = ranges_.upper_bound(frame);
   if (next != ranges_.begin()) {

@@ -26,7 +26,8 @@ class FrameRanges {
   std::uint64_t first() const { return ranges_.begin()->first; }   // of a set that is not empty
   std::uint64_t last() const { return ranges_.rbegin()->second; }  // the same
 
-  std::vector<FrameRange> ranges() const;  // ordered, neither overlapping nor adjacent
+  std::vector<FrameRange> ranges() const;                          // ordered, neither overlapping nor adjacent
+  std::vector<FrameRange> ranges_from(std::uint64_t frame) const;  // the same without what is before `frame`
 
   // Whether `frame` is in the set, and up to which number the answer stays the same.
   struct Stretch {

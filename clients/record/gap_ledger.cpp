@@ -34,11 +34,51 @@ RunLedger& GapLedger::open(const wire::FrameHead& head, std::uint64_t writer) {
   for (current_ = runs_.size(); current_ > 0;) {
     if (runs_[--current_].run_id() == head.run_id) return runs_[current_];
   }
+  return begin(head.run_id, watched || watched_.contains(head.run_id), head.frame);
+}
+
+RunLedger& GapLedger::open(std::uint64_t run_id, std::uint64_t first_frame) {
+  RunLedger* run = find(run_id);
+  return run ? *run : begin(run_id, watched_.contains(run_id), first_frame);
+}
+
+RunLedger& GapLedger::begin(std::uint64_t run_id, bool watched, std::uint64_t first_frame) {
   current_ = runs_.size();
-  RunLedger& run = runs_.emplace_back(head.run_id, watched, head.frame);
-  for (const FrameRange& range : std::exchange(early_[head.run_id], {})) run.note_unpublished(range);
-  early_.erase(head.run_id);
+  RunLedger& run = runs_.emplace_back(run_id, watched, first_frame);
+  for (const FrameRange& range : std::exchange(early_[run_id], {})) run.note_unpublished(range);
+  early_.erase(run_id);
+  if (watched) news_of_watched_.push_back(run_id);
   return run;
+}
+
+void GapLedger::note_news(const wire::FrameHead& head) {
+  const auto [entry, is_new] = news_.try_emplace(head.run_id, News{head.frame, head.frame, true});
+  if (is_new) return;
+  News& news = entry->second;
+  // From the newest that was told on: skip() fills what is between two frames.
+  news.first = std::min(news.fresh ? news.first : news.newest, head.frame);
+  news.newest = std::max(news.newest, head.frame);
+  news.fresh = true;
+}
+
+AccountNote GapLedger::take_news() {
+  AccountNote note{.watched = std::exchange(news_of_watched_, {}), .paused = {}, .dropped = {}, .messages = {}};
+  for (auto& [run_id, news] : news_) {
+    if (!std::exchange(news.fresh, false)) continue;
+    const RunLedger& run = *find(run_id);
+    for (const auto& [first, last] : run.paused_from(news.first)) note.paused.push_back({run_id, first, last});
+    for (const auto& [first, last] : run.dropped_from(news.first)) note.dropped.push_back({run_id, first, last});
+  }
+  return note;
+}
+
+void GapLedger::note(const AccountNote& account) {
+  for (const std::uint64_t run_id : account.watched) {
+    watched_.insert(run_id);
+    if (RunLedger* run = find(run_id)) run->note_watched();
+  }
+  for (const auto& [run_id, first, last] : account.paused) open(run_id, first).note_paused({first, last});
+  for (const auto& [run_id, first, last] : account.dropped) open(run_id, first).note_dropped({first, last});
 }
 
 void GapLedger::resume() {
@@ -63,6 +103,7 @@ void GapLedger::add(const wire::FrameHead& head, std::uint64_t writer) {
 
 void GapLedger::drop(const wire::FrameHead& head, std::uint64_t writer) {
   open(head, writer).drop(head);
+  note_news(head);
 }
 
 void GapLedger::pass(const wire::FrameHead& head) {
@@ -71,6 +112,7 @@ void GapLedger::pass(const wire::FrameHead& head) {
 
 void GapLedger::skip(const wire::FrameHead& head, std::uint64_t writer) {
   open(head, writer).skip(head);
+  note_news(head);
 }
 
 void GapLedger::note_unpublished(std::uint64_t run_id, std::span<const std::uint64_t> numbers) {

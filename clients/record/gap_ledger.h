@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/record/account_note.h"
 #include "clients/record/run_ledger.h"
 
 namespace flexcast::record {
@@ -51,6 +52,12 @@ class GapLedger {
   // What a status says: `ranges` are first, last, first, last, ... of frames that the server did not publish.
   void note_unpublished(std::uint64_t run_id, std::span<const std::uint64_t> ranges);
 
+  // What has been dropped and skipped, and which runs were seen from their beginning, since the last call. (`messages`
+  // are not known here.)
+  AccountNote take_news();
+  // The same, told by the ledger of another recorder of this file: then drop() and skip() are not called here.
+  void note(const AccountNote& account);
+
   // Takes back a chunk given to add(): the file could not take it.
   void lose(const wire::FrameHead& head);
 
@@ -65,6 +72,9 @@ class GapLedger {
   std::uint64_t run_id() const { return runs_.empty() ? 0 : runs_[current_].run_id(); }
   std::uint64_t next_frame() const { return runs_.empty() ? 0 : runs_[current_].next_frame(); }
 
+  // Of the same run, see RunLedger.
+  bool has_hole() const { return !runs_.empty() && runs_[current_].has_hole(); }
+  void give_up_holes() { runs_[current_].give_up_holes(); }
   std::uint64_t contiguous_end() const { return runs_.empty() ? 0 : runs_[current_].contiguous_end(); }
 
   // In the order in which they were met.
@@ -73,9 +83,18 @@ class GapLedger {
   std::vector<Pause> pauses() const;
 
  private:
+  // Frames of one run that take_news() has to tell of.
+  struct News {
+    std::uint64_t first = 0;
+    std::uint64_t newest = 0;  // told or not
+    bool fresh = true;
+  };
   const RunLedger* find(std::uint64_t run_id) const;
   RunLedger* find(std::uint64_t run_id) { return const_cast<RunLedger*>(std::as_const(*this).find(run_id)); }
   RunLedger& open(const wire::FrameHead& head, std::uint64_t writer);
+  RunLedger& open(std::uint64_t run_id, std::uint64_t first_frame);
+  RunLedger& begin(std::uint64_t run_id, bool watched, std::uint64_t first_frame);
+  void note_news(const wire::FrameHead& head);
 
   std::uint64_t most_frames_;
   bool closed_ = false;
@@ -84,6 +103,9 @@ class GapLedger {
   std::deque<RunLedger> runs_;
   std::size_t current_ = 0;  // in runs_
   std::set<std::uint64_t> writers_;
+  std::map<std::uint64_t, News> news_;                      // by run
+  std::vector<std::uint64_t> news_of_watched_;              // runs
+  std::set<std::uint64_t> watched_;                         // runs that another ledger has watched
   std::map<std::uint64_t, std::vector<FrameRange>> early_;  // unpublished frames of runs that no frame came from yet
 };
 

@@ -1,4 +1,5 @@
-// What the receiving thread hands to the file's thread: a message off the wire, or a file that becomes an attachment.
+// What the receiving thread hands to the file's thread: a message off the wire, a file that becomes an attachment, or
+// what it knows of frames that are not there.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "clients/record/account_note.h"
 #include "idl/wire/raw_reader.h"
 #include "idl/wire/topics.h"
 
@@ -31,6 +33,14 @@ inline Message make_message(wire::TopicId topic, std::uint32_t sequence, const w
   return {topic, sequence, sample.receive_time, sample.info.source_time, sample.shared};
 }
 
-using Item = std::variant<Message, Attachment>;
+using Item = std::variant<Message, Attachment, AccountNote>;
+
+// What comes with it beside the object itself.
+inline std::size_t payload_bytes(const Item& item) {
+  if (const auto* message = std::get_if<Message>(&item)) return message->bytes.size();
+  if (const auto* file = std::get_if<Attachment>(&item)) return file->bytes.size();
+  const auto& note = std::get<AccountNote>(item);
+  return 8 * note.watched.size() + sizeof(Pause) * (note.paused.size() + note.dropped.size());
+}
 
 }  // namespace flexcast::record

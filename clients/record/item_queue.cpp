@@ -4,7 +4,7 @@ namespace flexcast::record {
 namespace {
 
 std::size_t size_of(const Item& item) {
-  return sizeof item + std::visit([](const auto& one) { return one.bytes.size(); }, item);
+  return sizeof item + payload_bytes(item);
 }
 
 bool is_frame(const Item& item) {

@@ -36,6 +36,7 @@ Report PartReports::divide(Report whole, const ContentLedger& content, bool last
   part.server_version = all.server_version;
   const std::vector<RunSummary> there = std::exchange(part.runs, {});
   part.gaps.clear();
+  part.pauses.clear();
   divided_ = next_;
   for (const RunSummary& run : all.runs) {
     const RunSummary* in_part = find(there, run.run_id);
@@ -59,6 +60,7 @@ Report restrict_report(Report whole, const ContentLedger& content) {
   left.dropped = whole.reception.dropped;
   left.error = whole.reception.error;
   left.gaps.clear();
+  left.pauses.clear();
   for (const RunSummary& run : left.runs) {
     keep_within(whole.reception.gaps, run.run_id, run.first_frame, endless, left.gaps);
     keep_within(whole.reception.pauses, run.run_id, run.first_frame, endless, left.pauses);

@@ -17,6 +17,8 @@ constexpr std::size_t batch_bytes = std::size_t{64} << 20;  // taken before they
 constexpr auto longest_wait = 100ms;
 constexpr auto finishing_time = 500ms;  // for the rest of a frame, or one more status
 constexpr auto finishing_period = 5ms;
+constexpr auto hole_time = 2s;          // for a status to say that a frame was not published: eight periods
+constexpr auto account_period = 200ms;  // of what a killed recorder can no longer say
 constexpr auto discarding_time = 1s;
 constexpr auto room_time = 2s;  // for the disk to take what is in hand when the end has come
 
@@ -126,6 +128,8 @@ void Receiver::run() {
     guard_.reset();
     const bool paused = paused_asked_;
     receive();
+    give_up_holes();
+    note_account();
     set_paused(paused);
   }
   if (reception_.end != EndReason::failed) finish_frames();
@@ -279,6 +283,34 @@ bool Receiver::may_wait_for_room() {
   if (!stopping_) return true;
   if (!latest_room_) latest_room_ = Clock::now() + room_time;
   return Clock::now() < *latest_room_;
+}
+
+// In lockstep the server goes on when it knows of every frame: one that got lost would hold it for ever.
+void Receiver::give_up_holes() {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!lockstep_ || !ledger_.has_hole()) return hole_.reset();
+    const Hole hole{ledger_.run_id(), ledger_.contiguous_end(), Clock::now()};
+    if (!hole_ || hole_->run_id != hole.run_id || hole_->frame != hole.frame) hole_ = hole;
+    if (Clock::now() - hole_->since < hole_time) return;
+    ledger_.give_up_holes();
+  }
+  after_batch_(progress());
+}
+
+// Not while the account grows with every frame.
+void Receiver::note_account() {
+  if (Clock::now() - account_noted_ < account_period) return;
+  if (!account_) {
+    const std::scoped_lock lock(mutex_);
+    AccountNote note = ledger_.take_news();
+    if (note.empty()) return;
+    note.messages = reception_.dropped;
+    account_ = std::move(note);
+  }
+  if (queue_.push(std::move(*account_)) != Pushed::taken) return;
+  account_.reset();
+  account_noted_ = Clock::now();
 }
 
 void Receiver::fail(const std::string& error) {

@@ -79,6 +79,8 @@ class Receiver {
   void record(FrameBatch::Arrival& arrival);
   Pushed push(wire::TopicId topic, Item item);
   bool may_wait_for_room();
+  void note_account();
+  void give_up_holes();
   void fail(const std::string& error);
   void discard_rest();
 
@@ -94,6 +96,13 @@ class Receiver {
   std::map<wire::TopicId, std::uint32_t> sequences_;  // of all topics but the frames
   SceneFiles scene_files_;
   std::uint64_t statuses_ = 0;
+  struct Hole {
+    std::uint64_t run_id = 0, frame = 0;
+    Clock::time_point since;
+  };
+  std::optional<Hole> hole_;     // the first of the present run, while in lockstep
+  std::optional<Item> account_;  // an AccountNote that waits for room
+  Clock::time_point account_noted_;
   std::optional<Clock::time_point> latest_room_;  // set when the end has come while the queue is full
 
   mutable std::mutex mutex_;  // for those below; not held while waiting for room

@@ -34,7 +34,9 @@ mcap::Status RecordingCopy::take(const mcap::Reader& reader, const mcap::Record&
     return writer_.add_attachment(file->name, file->media_type, file->log_time, file->create_time, file->data);
   }
   const auto* metadata = std::get_if<mcap::Metadata>(&record);
-  if (metadata == nullptr || metadata->name.starts_with("flexcast.")) return {};
+  if (metadata == nullptr) return {};
+  if (metadata->name == account_metadata) ledger_.note(account_of(metadata->values.copy()));
+  if (metadata->name.starts_with("flexcast.")) return {};
   return writer_.add_metadata(metadata->name, metadata->values.copy());
 }
 

@@ -27,7 +27,14 @@ mcap::Status RecordingFile::write(const Item& item) {
   if (const auto* file = std::get_if<Attachment>(&item)) {
     return write_attachment(file->name, file->media_type, file->log_time, file->bytes);
   }
+  if (const auto* note = std::get_if<AccountNote>(&item)) return write_note(*note);
   return write_message(std::get<Message>(item));
+}
+
+// Behind the frames that came before: of a killed recorder's file no frame is missing that waited in the open chunk.
+mcap::Status RecordingFile::write_note(const AccountNote& note) {
+  if (mcap::Status status = flush(); !status) return status;
+  return add_metadata(account_metadata, to_metadata(note));
 }
 
 mcap::Status RecordingFile::write_message(wire::TopicId topic, std::uint32_t sequence, std::int64_t log_time,

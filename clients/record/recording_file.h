@@ -58,6 +58,7 @@ class RecordingFile final : public ItemSink {
   RecordingFile(mcap::ByteSink& sink, mcap::Compression compression)
       : writer_(sink, {.compression = compression, .chunk_interval = chunk_interval}) {}
   mcap::Status add_channels();
+  mcap::Status write_note(const AccountNote& note);
   void note_frame(mcap::Bytes bytes);
 
   // With the time until somebody looks, a killed recorder loses a quarter of a second.

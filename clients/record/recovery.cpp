@@ -8,6 +8,7 @@
 #include "clients/mcap/format.h"
 #include "clients/mcap/mapped_file.h"
 #include "clients/record/new_file.h"
+#include "clients/record/part_report.h"
 #include "clients/record/recording_copy.h"
 #include "clients/record/ring_parts.h"
 
@@ -49,7 +50,10 @@ wire::Result<Recovery> recover_ring(const std::string& path) {
   const auto whole = mcap::MappedFile::open(path);
   Recovery recovery{.was_complete = whole && has_end(whole.value().bytes()), .report = empty_report(path)};
   if (!recovery.was_complete) {
-    auto report = join_ring(path, make_report);
+    const auto of_what_is_left = [](const ContentLedger& content) {
+      return restrict_report(make_report(content), content);
+    };
+    auto report = join_ring(path, of_what_is_left);
     if (!report) return report.error();
     recovery.report = std::move(report).value();
   }

@@ -5,8 +5,9 @@
 namespace flexcast::record {
 
 void Repeats::note(const Item& item) {
+  if (std::holds_alternative<Attachment>(item)) return attachments_.push_back(item);
   const auto* message = std::get_if<Message>(&item);
-  if (message == nullptr) return attachments_.push_back(item);
+  if (message == nullptr) return;
   switch (message->topic) {
     case wire::TopicId::scene:
       scene_ = item;

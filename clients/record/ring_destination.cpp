@@ -48,6 +48,8 @@ RingDestination::RingDestination(const Options& options, MakeReport make_report,
 
 mcap::Status RingDestination::write(const Item& item) {
   const auto* message = std::get_if<Message>(&item);
+  // Of what is known of frames: it goes with the frames of its time.
+  if (std::holds_alternative<AccountNote>(item) && part_) return part_->file().write(item);
   if (!is_ageing(message)) return base_.file().write(item);
   // Frames keep the file's thread busy: nobody else looks how old the chunk of the base is.
   if (auto status = base_.file().flush_if_older(message->log_time); !status) return status;

@@ -72,6 +72,12 @@ void RunLedger::skip(const wire::FrameHead& head) {
   skipping_ = std::max(skipping_.value_or(0), head.frame);
 }
 
+void RunLedger::note_known(const FrameRange& range, FrameRanges& ranges) {
+  newest_ = std::max(newest_, range.last);
+  first_seen_ = std::min(first_seen_, range.first);
+  ranges.add(range);
+}
+
 bool RunLedger::lose(const wire::FrameHead& head) {
   newest_ = std::max(newest_, head.frame);
   const bool was_complete = complete_.contains(head.frame);
@@ -112,7 +118,7 @@ std::uint64_t RunLedger::contiguous_end() const {
   std::uint64_t frame = joined_at();
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
-    for (const FrameRanges* settled : {&complete_, &paused_, &unpublished_}) {
+    for (const FrameRanges* settled : {&complete_, &paused_, &unpublished_, &given_up_}) {
       const auto stretch = settled->stretch(frame);
       if (!stretch.contained) continue;
       frame = stretch.last + 1;

@@ -86,6 +86,17 @@ class RunLedger {
   // The server says that it did not publish these.
   void note_unpublished(const FrameRange& range) { unpublished_.add(range); }
 
+  // What another ledger of this run has said (see AccountNote): frames that came while the recorder was paused, frames
+  // that did not fit its queue, that it was there when the run began.
+  void note_paused(const FrameRange& range) { note_known(range, paused_); }
+  void note_dropped(const FrameRange& range) { note_known(range, dropped_); }
+  void note_watched() { watched_ = true; }
+
+  // What it would say of frames from `first` on.
+  std::vector<FrameRange> paused_from(std::uint64_t first) const { return paused_.ranges_from(first); }
+  std::vector<FrameRange> dropped_from(std::uint64_t first) const { return dropped_.ranges_from(first); }
+  bool is_watched() const { return watched_; }
+
   // Takes back a recorded chunk: the file could not take it. True if its frame was complete.
   bool lose(const wire::FrameHead& head);
 
@@ -94,8 +105,12 @@ class RunLedger {
   std::uint64_t missing() const;      // frames, without those in progress
   std::uint64_t next_frame() const { return complete_.empty() ? joined_at() : complete_.last() + 1; }
 
-  // The first frame from where the run was joined that is neither there nor known not to come.
+  // The first frame from where the run was joined that is neither there nor known not to come, nor given up.
   std::uint64_t contiguous_end() const;
+  // Whether newer frames are there than one that is not: that one comes no more, and why may still be told.
+  bool has_hole() const { return !complete_.empty() && contiguous_end() < complete_.last(); }
+  // Nobody will tell: what is not there of frames before the newest is not waited for. It stays missing.
+  void give_up_holes() { given_up_.add({contiguous_end(), complete_.last()}); }
 
   RunSummary summary() const;
 
@@ -111,6 +126,7 @@ class RunLedger {
   std::uint64_t joined_at() const;
   bool may_become_complete(std::uint64_t frame, const std::vector<bool>& part) const;
   GapCause cause_of(std::uint64_t frame) const;
+  void note_known(const FrameRange& range, FrameRanges& ranges);
 
   std::uint64_t run_id_;
   bool watched_;
@@ -123,6 +139,7 @@ class RunLedger {
   FrameRanges dropped_;                               // a chunk was not
   FrameRanges paused_;                                // the recorder was paused
   FrameRanges unpublished_;                           // says the server
+  FrameRanges given_up_;                              // not there, or there by now
   FrameRanges cut_;                                   // the file could not take a chunk
   std::optional<std::uint64_t> skipping_;             // the newest frame of the pause that lasts
   std::map<std::uint64_t, std::vector<bool>> parts_;  // which chunks came, of frames that are not complete

@@ -14,7 +14,7 @@ constexpr std::size_t room = 32 * 1024;  // for the metadata and the indexes of 
 
 // Of a chunk of a frame: of the whole frame.
 std::size_t size_with_rest(const Item& item) {
-  const std::size_t size = std::visit([](const auto& one) { return one.bytes.size(); }, item);
+  const std::size_t size = payload_bytes(item);
   const auto* message = std::get_if<Message>(&item);
   if (message == nullptr || message->topic != wire::TopicId::frames) return size;
   const auto head = wire::peek_frame_head(message->bytes);

@@ -58,6 +58,26 @@ TEST_F(RecorderKill, AtAnyMomentLeavesARecordingThatCanBeCompletedWithEveryWhole
   EXPECT_GT(frames, 0U) << "no recorder lived long enough to say anything";
 }
 
+// What came while it was paused is in no message: the recorder has said so as it went.
+TEST_F(RecorderKill, WhilePausedLeavesAFileThatKnowsOfThePause) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--rate", "0.5"});
+  const auto recorder = start_waiting_recorder("run.mcap", {"--paused"});
+  ASSERT_TRUE(recorder->wait_for_line("recording:", patience));
+  for (const client::Deadline deadline(patience); !deadline.passed();) {
+    std::filesystem::copy_file(path("run.mcap"), path("copy.mcap"), std::filesystem::copy_options::overwrite_existing);
+    const Ended now = run("flexcast-record", {"--recover", path("copy.mcap").string(), "--json"});
+    if (now.code == 0 && Json::parse(now.out)["paused_frames"] > 50) break;
+  }
+  recorder->send(SIGKILL);
+  ASSERT_EQ(recorder->wait(patience), 128 + SIGKILL);
+  const Ended recovered = run("flexcast-record", {"--recover", path("run.mcap").string(), "--json"});
+  ASSERT_EQ(recovered.code, 0) << recovered.err;
+  const Json summary = Json::parse(recovered.out);
+  EXPECT_GT(summary["paused_frames"], 50);
+  EXPECT_EQ(summary["gaps"], 0) << recovered.out;
+  EXPECT_EQ(summary["frames"], 0);
+}
+
 TEST_F(RecorderKill, RecoveryOfACompleteFileSaysSoAndOfAnotherFileIsAnError) {
   const auto server = start_server(write_file("pair.toml", pair_scene()), {"--rate", "0.5"});
   const auto recorder = start_recorder("run.mcap", {"--frames", "10"});
