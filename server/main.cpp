@@ -1,13 +1,15 @@
 // flexcast-server: parses, wires and waits.
-#include <pthread.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <future>
 
 #include "core/base/parallel.h"
+#include "server/end_signals.h"
 #include "server/options.h"
 #include "server/progress_line.h"
 #include "server/server.h"
@@ -16,16 +18,7 @@ namespace {
 
 using namespace flexcast;
 using namespace flexcast::server;
-
-// Every thread leaves these signals to wait_for_end.
-sigset_t block_end_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
+using namespace std::chrono_literals;
 
 void set_up_log() {
   auto log = spdlog::stderr_color_mt("flexcast-server");
@@ -34,17 +27,41 @@ void set_up_log() {
   spdlog::set_default_logger(log);
 }
 
-void wait_for_end(const Server& server, const sigset_t& signals, bool exit_at_end) {
-  constexpr timespec period{0, 100'000'000};
+// Ends the process under the threads that still run.
+[[noreturn]] void leave(const std::string& last_words) {
+  spdlog::error("{}", last_words);
+  std::fflush(stdout);
+  std::_Exit(1);
+}
+
+// On a thread of its own, so that signals are heard while a scene is loaded.
+Result<std::unique_ptr<Server>> start(const Options& options, EndSignals& signals) {
+  auto starting = std::async(std::launch::async, [&options] { return Server::start(options); });
+  while (starting.wait_for(20ms) != std::future_status::ready) {
+    signals.wait(0ms);
+    if (signals.impatient()) leave("the start had not ended " + signals.reason() + " and was cut off");
+  }
+  return starting.get();
+}
+
+void wait_for_end(const Server& server, EndSignals& signals, bool exit_at_end) {
   ProgressLine progress;
-  while (!(exit_at_end && server.ended())) {
-    const int signal = sigtimedwait(&signals, nullptr, &period);
-    if (signal == SIGINT || signal == SIGTERM) {
-      spdlog::info("ending on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
-      return;
-    }
+  while (!signals.asked() && !(exit_at_end && server.ended())) {
+    signals.wait(100ms);
     progress.show(progress_text(server.latest()));
   }
+}
+
+// In order, unless the step loop does not come to an end.
+void stop(Server& server, EndSignals& signals) {
+  server.begin_stop();
+  while (!server.steps_ended()) {
+    signals.wait(5ms);
+    if (!signals.impatient()) continue;
+    signals.let_kill();
+    leave(server.cut_off(signals.reason()));
+  }
+  server.stop();
 }
 
 }  // namespace
@@ -53,11 +70,11 @@ int main(int argc, char** argv) {
   const auto parsed = parse_options(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Options& options = std::get<Options>(parsed);
-  const sigset_t signals = block_end_signals();
+  EndSignals signals;
   set_up_log();
   set_thread_count(options.threads);
 
-  auto started = Server::start(options);
+  auto started = start(options, signals);
   if (!started) {
     spdlog::error("{}", started.error().message);
     return 1;
@@ -67,6 +84,6 @@ int main(int argc, char** argv) {
   std::fflush(stdout);
   wait_for_end(server, signals, options.exit);
   const bool failed = options.exit && server.state() == WorldState::failed;
-  server.stop();
+  stop(server, signals);
   return failed ? 1 : 0;
 }

@@ -25,7 +25,8 @@ void Publisher::start() {
   thread_ = std::thread(&Publisher::run, this);
 }
 
-void Publisher::stop() {
+void Publisher::stop(const std::string& last_words) {
+  if (!stopping_) last_words_ = last_words;
   stopping_ = true;
   mailbox_.wake();
   if (thread_.joinable()) thread_.join();
@@ -49,6 +50,7 @@ void Publisher::drain() {
   const auto end = Clock::now() + drain_time;
   while (Clock::now() < end && turn(Clock::now())) {
   }
+  if (!last_words_.empty()) status_.warnings.push_back(last_words_);
   write_status(Clock::now());
   publications_.dispose();
 }

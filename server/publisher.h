@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "server/frame_mailbox.h"
@@ -24,8 +25,8 @@ class Publisher {
 
   void start();
   // Publishes what waits (for a second at most), a last status, and says goodbye. To be called when nothing more comes
-  // into the mailbox.
-  void stop();
+  // into the mailbox, or nothing more counts. `last_words`: a warning of the last status; "": none.
+  void stop(const std::string& last_words = "");
 
   // What was published last, for people to look at.
   struct Latest {
@@ -60,6 +61,7 @@ class Publisher {
   std::optional<Clock::time_point> reader_joined_;  // no frame was published since
   mutable std::mutex latest_mutex_;
   Latest latest_;
+  std::string last_words_;  // set before `stopping_`
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

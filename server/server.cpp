@@ -96,12 +96,27 @@ Server::Server(Scene scene, const WorldOptions& options, std::unique_ptr<Recorde
                                options.rate > 0.0 ? fmt::format("{:g}", options.rate) : "max",
                                options.paused ? ", paused" : "", roll_ ? ", in lockstep" : "")) {}
 
-void Server::stop() {
+void Server::begin_stop() {
   if (service_) service_->stop_receiving();
+  simulation_.begin_stop();
+}
+
+void Server::stop() {
+  begin_stop();
   simulation_.stop();
   if (recorders_) recorders_->stop();
   if (service_) service_->stop_replying();
   publisher_.stop();
+}
+
+std::string Server::cut_off(const std::string& reason) {
+  std::string text = fmt::format("{} had not ended {} and was cut off; what was asked meanwhile is not answered",
+                                 simulation_.activity(), reason);
+  recorders_.reset();
+  service_.reset();
+  publisher_.stop(text);
+  const wire::Participant leaves = std::move(participant_);
+  return text;
 }
 
 bool Server::ended() const {

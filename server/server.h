@@ -25,6 +25,15 @@ class Server {
 
   // Ends in order: no more commands, no more steps, what waits is published, a last status, goodbye.
   void stop();
+  // The first half of it, without waiting: no more commands, and the step or command under way is the last. When
+  // steps_ended(), stop() takes about a second at most.
+  void begin_stop();
+  bool steps_ended() const { return simulation_.stopped(); }
+  // Instead of stop(), when a step or a command does not come to an end: what waits is published, the last status
+  // says what was cut off, goodbye. The step loop still runs afterwards, in the midst of this object, which is neither
+  // to be used nor to be destroyed any more: end the process.
+  // `reason`: "5 s after SIGTERM". Returns what was cut off, for the user to read.
+  std::string cut_off(const std::string& reason);
 
   // "world bunny on domain 0, profile loopback: 2500 particles, dt 0.001 s, rate 1", as it began.
   const std::string& description() const { return description_; }

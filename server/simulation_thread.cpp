@@ -22,9 +22,13 @@ void SimulationThread::start() {
   thread_ = std::thread(&SimulationThread::run, this);
 }
 
-void SimulationThread::stop() {
+void SimulationThread::begin_stop() {
   stopping_ = true;
   commands_.wake();
+}
+
+void SimulationThread::stop() {
+  begin_stop();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -37,6 +41,7 @@ void SimulationThread::run() {
   world_.close();
   hand_on();
   post_status();
+  stopped_ = true;
 }
 
 Clock::duration SimulationThread::turn(Clock::time_point now) {
@@ -65,7 +70,9 @@ void SimulationThread::apply_commands(Clock::time_point now) {
   for (const Command& command : commands_.take_all()) {
     const auto run = world_.run_id();
     const double time = world_.simulation_state().time;
+    activity_.begin_command(command.kind);
     world_.apply(command, std::max(now, Clock::now()));  // the one before may have taken long
+    activity_.end();
     follow(run, time);
     hand_frame_over();
   }
@@ -97,15 +104,18 @@ bool SimulationThread::is_held(Clock::time_point now) {
   const bool by_recorders = world_.running() && !roll_->may_step(position());
   if (!by_recorders) held_since_.reset();
   if (by_recorders && !held_since_) held_since_ = now;
-  mailbox_.set_held(by_recorders);
+  // At the end the last frame is waited for in the same way: it is sent again should it have got lost.
+  mailbox_.set_held(by_recorders || (world_.is_over() && !roll_->have_all(position())));
   return by_recorders || pending_;
 }
 
 void SimulationThread::step() {
   drop_pending_frame();
+  activity_.begin_step(world_.simulation_state().step + 1);
   const auto begin = Clock::now();
   world_.take_step();
   const auto end = Clock::now();
+  activity_.end();
   meter_.add_step(end, world_.simulation_state().time, end - begin);
   hand_frame_over();
   world_.settle(seconds(end - begin));

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/sim/particle_fields.h"
+#include "server/activity.h"
 #include "server/frame_mailbox.h"
 #include "server/pacer.h"
 #include "server/queue.h"
@@ -28,8 +29,14 @@ class SimulationThread {
   SimulationThread& operator=(const SimulationThread&) = delete;
 
   void start();
-  // Ends the loop after the present step, answers what is open and hands a last status on.
+  // Ends the loop after the present step or command, answers what is open and hands a last status on.
   void stop();
+  // The same without waiting for it: stopped() says when it has come to that.
+  void begin_stop();
+  bool stopped() const { return stopped_; }
+
+  // What the loop is at; from any thread.
+  std::string activity() const { return activity_.text(); }
 
   // One turn of the loop, for tests that run it without the thread. Returns how long the loop may sleep.
   Clock::duration turn(Clock::time_point now);
@@ -73,7 +80,9 @@ class SimulationThread {
   WorldState posted_state_ = WorldState::paused;
   std::atomic<WorldState> state_ = WorldState::paused;
   std::atomic<bool> handed_over_ = false;
+  Activity activity_;
   std::atomic<bool> stopping_ = false;
+  std::atomic<bool> stopped_ = false;  // the thread has no more to do
   std::thread thread_;
 };
 

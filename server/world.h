@@ -46,6 +46,7 @@ class World {
 
   WorldState state() const { return state_; }
   bool running() const { return state_ == WorldState::running; }
+  bool is_over() const { return state_ == WorldState::finished || state_ == WorldState::failed; }
   std::uint64_t run_id() const { return chronicle_.run_id(); }
   double rate() const { return parameters_.rate(); }
   std::uint64_t topology_revision() const { return topology_revision_; }  // grows with every scene that is loaded

@@ -124,9 +124,11 @@ TEST(Lockstep, TheLastFrameCountsAsHandedOverWhenTheRecordersHaveIt) {
   bench.turn(5);
   EXPECT_EQ(bench.world.state(), WorldState::finished);
   EXPECT_FALSE(bench.thread.handed_over());
+  EXPECT_TRUE(bench.mailbox.held()) << "so the last frame is sent again: it may have got lost";
   bench.note("slow", 4);
   bench.turn(1);
   EXPECT_TRUE(bench.thread.handed_over());
+  EXPECT_FALSE(bench.mailbox.held());
 }
 
 TEST(Lockstep, TheThreadGoesOnWhenTheRollHasChanged) {
