@@ -1,6 +1,8 @@
 // flexcast-ctl against a real server: what it prints parses, and its exit codes are 0, 1 and 2.
 #include <gtest/gtest.h>
 
+#include "idl/wire/fill.h"
+#include "idl/wire/writer.h"
 #include "tests/system/scenes.h"
 #include "tests/system/system_test.h"
 
@@ -94,11 +96,75 @@ TEST_F(CtlSystem, SetIfRevisionTakesOneOfTwoThatDecidedOnTheSame) {
   EXPECT_EQ(ctl_json({"get", "rope.damping"})["values"]["rope.damping"], 0.5);
 }
 
-TEST_F(CtlSystem, TheDoctorIsContentWithAServerThatIsWell) {
+// Two programs that decide on the same revision at the same time: one wins, and the other is told.
+TEST_F(CtlSystem, OfTwoSetsThatRaceForARevisionExactlyOneWins) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()), {"--rate", "max"});
+  for (int round = 0; round < 8; ++round) {
+    const std::string revision = ctl_json({"get"})["parameter_revision"].dump();
+    const std::vector<std::string> wanted = {std::to_string(2 * round + 1), std::to_string(2 * round + 2)};
+    std::vector<std::unique_ptr<Process>> racers;
+    for (const std::string& value : wanted) {
+      racers.push_back(start("flexcast-ctl", {"--domain", std::to_string(domain()), "set", "--if-revision", revision,
+                                              "rope.stiffness=" + value}));
+    }
+    std::vector<std::string> won;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto code = racers[i]->wait(patience);
+      ASSERT_TRUE(code == 0 || code == 1) << racers[i]->err();
+      if (code == 0) won.push_back(wanted[i]);
+      if (code == 1) EXPECT_NE(racers[i]->err().find("is in force, not " + revision), std::string::npos);
+    }
+    ASSERT_EQ(won.size(), 1U) << "round " << round;
+    EXPECT_EQ(ctl_json({"get", "rope.stiffness"})["values"]["rope.stiffness"], std::stod(won[0]));
+    EXPECT_EQ(ctl_json({"get"})["parameter_revision"], std::stoull(revision) + 1);
+  }
+}
+
+std::string level_of(const Json& doctor, const std::string& name) {
+  for (const Json& check : doctor["checks"]) {
+    if (check["check"] == name) return check["level"];
+  }
+  return "no such check";
+}
+
+TEST_F(CtlSystem, TheDoctorIsContentWithAServerThatIsWellAlsoAfterASecondOfItsNameWasRefused) {
+  const auto scene = write_file("pair.toml", pair_scene());
+  const auto server = start_server(scene);
+  for (const bool second : {false, true}) {
+    if (second) EXPECT_EQ(run("flexcast-server", {scene.string(), "--domain", std::to_string(domain())}).code, 1);
+    const Ended ended = ctl({"--wait", "1", "doctor", "--json"});
+    EXPECT_EQ(ended.code, 0) << ended.out;
+    EXPECT_EQ(Json::parse(ended.out)["healthy"], true) << ended.out;
+    EXPECT_EQ(level_of(Json::parse(ended.out), "names"), "ok") << ended.out;
+  }
+}
+
+TEST_F(CtlSystem, TheDoctorFindsThatNoServerIsThereBeforeOneComesAndAfterItEnded) {
+  const auto expect_none = [&] {
+    const Ended ended = ctl({"--wait", "0.5", "doctor", "--json"});
+    EXPECT_EQ(ended.code, 1) << ended.out;
+    EXPECT_EQ(level_of(Json::parse(ended.out), "servers"), "fail") << ended.out;
+  };
+  expect_none();
   const auto server = start_server(write_file("pair.toml", pair_scene()));
-  const Ended ended = ctl({"--wait", "1", "doctor", "--json"});
-  EXPECT_EQ(ended.code, 0) << ended.out;
-  EXPECT_EQ(Json::parse(ended.out)["healthy"], true);
+  EXPECT_EQ(ctl({"--wait", "1", "doctor"}).code, 0);
+  end(*server, SIGTERM);
+  expect_none();
+}
+
+// Beside the real server one of another version, as far as its status says.
+TEST_F(CtlSystem, TheDoctorFindsAServerOfAnotherVersion) {
+  const auto server = start_server(write_file("pair.toml", pair_scene()));
+  const auto participant = wire::Participant::create({.domain = domain()}).value();
+  const auto statuses = wire::Writer<flexcast_Status>::create(participant).value();
+  wire::Owned<flexcast_Status> status;
+  wire::set_string(status->world, "ancient");
+  wire::set_string(status->version, "0.0.1");
+  status->server_id = 7;
+  EXPECT_TRUE(statuses.write(*status).ok());
+  const Json json = Json::parse(ctl({"--wait", "1", "doctor", "--json"}).out);
+  EXPECT_EQ(level_of(json, "versions"), "warn") << json;
+  EXPECT_EQ(level_of(json, "names"), "ok") << json;
 }
 
 TEST_F(CtlSystem, NoServerIsAFailureWithinTheWaitAndBadUsageIsTold) {

@@ -2,6 +2,9 @@
 // operator commands.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
+
 #include "idl/wire/fill.h"
 #include "idl/wire/writer.h"
 #include "tests/support/identities.h"
@@ -48,6 +51,17 @@ class SecuritySystem : public SystemTest {
     throw std::runtime_error("the recorder does not get " + std::to_string(frames) + " frames");
   }
 
+  // Our watcher's certificate and key, with the rights of an operator from an authority of its own: what its own side
+  // of DDS Security believes and the server must not.
+  std::string forge_operator() const {
+    std::filesystem::copy(path("theirs/eye"), path("forged"), std::filesystem::copy_options::overwrite_existing);
+    for (const std::string file : {"identity_ca.pem", "cert.pem", "key.pem"}) {
+      std::filesystem::copy(path("ours/eye/" + file), path("forged/" + file),
+                            std::filesystem::copy_options::overwrite_existing);
+    }
+    return path("forged").string();
+  }
+
   Ended ctl_as(const std::string& name, Arguments arguments) const {
     arguments.insert(arguments.begin(), {"--security", identity(name)});
     return ctl(std::move(arguments));
@@ -87,10 +101,10 @@ class Intruder {
 };
 
 TEST_F(SecuritySystem, StrangersGetNoFramesAndPlaceNoCommandsWhileAnAuthorisedRecorderGetsEveryFrame) {
-  make_identities(path("theirs"), {"op:operator"});
+  make_identities(path("theirs"), {"op:operator", "eye:operator"});
   const auto server = start_secure_server();
-  for (const std::string& security : {std::string(), path("theirs/op").string()}) {
-    SCOPED_TRACE(security.empty() ? "no identity" : "a foreign identity");
+  for (const std::string& security : {std::string(), path("theirs/op").string(), forge_operator()}) {
+    SCOPED_TRACE(security.empty() ? "no identity" : security);
     Intruder intruder(domain(), security);
     intruder.act();
     // It joined before the recorder did, and tries on until that one has its frames.
@@ -158,6 +172,37 @@ TEST_F(SecuritySystem, AWorldsNameIsTakenOnceAlsoAmongIdentities) {
                                                "--security", identity("op")});
   EXPECT_EQ(second.code, 1);
   EXPECT_NE(second.err.find("already"), std::string::npos) << second.err;
+}
+
+// Past every client, with the bare writer: what is left are the rights themselves.
+TEST_F(SecuritySystem, AWatcherCannotEvenHaveAWriterOfCommands) {
+  const auto server = start_secure_server();
+  const auto participant = wire::Participant::create({.domain = domain(), .security = identity("eye")}).value();
+  EXPECT_FALSE(wire::Writer<flexcast_Command>::create(participant).ok());
+  EXPECT_TRUE(wire::Reader<flexcast_Command>::create(participant).ok()) << "it may read them";
+  auto op = connect_as("op");
+  EXPECT_EQ(op.status(patience).value()->state, flexcast_WORLD_RUNNING);
+}
+
+// The folder that Cyclone's library was loaded from is where its plugins are looked for.
+TEST_F(SecuritySystem, AMissingPluginIsNamed) {
+  std::filesystem::create_directory(path("lib"));
+  std::ifstream maps("/proc/self/maps");
+  std::string library;
+  for (std::string line; library.empty() && std::getline(maps, line);) {
+    if (line.find("libddsc.so") != std::string::npos) library = line.substr(line.find('/'));
+  }
+  ASSERT_FALSE(library.empty());
+  std::filesystem::copy_file(library, path("lib/libddsc.so.0"));
+  const char* before = std::getenv("LD_LIBRARY_PATH");
+  const std::string kept = before != nullptr ? before : "";
+  setenv("LD_LIBRARY_PATH", path("lib").c_str(), 1);
+  const Ended listed = ctl_as("op", {"--wait", "0.3", "list"});
+  kept.empty() ? unsetenv("LD_LIBRARY_PATH") : setenv("LD_LIBRARY_PATH", kept.c_str(), 1);
+  EXPECT_EQ(listed.code, 1) << listed.out;
+  EXPECT_NE(listed.err.find("the plugin libdds_security_auth.so of Cyclone DDS is neither in " + path("lib").string()),
+            std::string::npos)
+      << listed.err;
 }
 
 TEST_F(SecuritySystem, ProgramsNameTheFileThatIsMissing) {
