@@ -22,8 +22,10 @@ class HubTest : public testing::Test {
   }
   void end(const std::string& world) { hub_.take({{EndNews{world, true}}, {}}); }
   void say_parameters(const std::string& world, double stiffness) {
-    ParameterTable table{{{"rope.stiffness", stiffness}, {"gravity", client::Vector{0, 0, -1}}},
-                         {{.name = "rope.stiffness", .kind = flexcast_VALUE_NUMBER}}};
+    ParameterTable table;
+    table.values = {{"rope.stiffness", stiffness}, {"gravity", client::Vector{0, 0, -1}}};
+    table.descriptors.emplace_back();
+    table.descriptors.back().name = "rope.stiffness";
     hub_.take({{StateNews{.world = world,
                           .topic = wire::TopicId::parameters,
                           .sample = make_sample("parameters"),
@@ -339,9 +341,9 @@ TEST(WorldRecord, TopologiesOfAnEarlierRunGoAndEventsToo) {
   for (const std::uint64_t key : {0, 1, 2}) world.add_state(topology(1, key));
   world.add_state(topology(2, 0));
   EXPECT_EQ(world.state_keys(wire::TopicId::topology), std::vector<std::uint64_t>{0});
-  for (std::size_t i = 0; i < 300; ++i) world.add_event({.run_id = 1, .sample = make_sample("e")});
+  for (std::size_t i = 0; i < 300; ++i) world.add_event({.world = "beam", .run_id = 1, .sample = make_sample("e")});
   EXPECT_EQ(world.events().size(), WorldRecord::most_events);
-  world.add_event({.run_id = 2, .sample = make_sample("e")});
+  world.add_event({.world = "beam", .run_id = 2, .sample = make_sample("e")});
   EXPECT_EQ(world.events().size(), 1u);
 }
 
