@@ -15,9 +15,11 @@ async function use(url, protocol) {
   for (const topic of ["scene", "topology", "parameters", "status", "events", "frames", "points"])
     await client.subscribe(`flexcast/${topic}`);
   const scene = (await client.message("flexcast/scene")).value;
-  const topology = (await client.message("flexcast/topology")).value;
+  await client.wait("topology of every body", () => {
+    const topologies = client.messages("flexcast/topology").map(({ value }) => value);
+    return topologies.reduce((sum, value) => sum + value.rest_positions.length, 0) === 3 * scene.particles;
+  });
   const first = await client.message("flexcast/frames");
-  require(topology.rest_positions.length === 3 * scene.particles, "the topology has other particles than the scene");
   require(Math.abs(Number(first.timestamp) / 1e6 - Date.now()) < 3.6e6, "a timestamp that is not of today");
 
   const values = await client.getParameters([], "all");

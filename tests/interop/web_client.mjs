@@ -19,8 +19,7 @@ export class WebClient {
   #socket;
   #readers = new Map(); // by subscription
   #waiting = new Set(); // functions that are called after every message
-  #messages = new Map(); // topic to its newest message
-  #counts = new Map(); // by topic
+  #messages = new Map(); // topic to its messages
   #topics = new Map(); // by subscription
   #responses = new Map();
   #parameters = [];
@@ -73,13 +72,13 @@ export class WebClient {
   // The newest message of a topic for which `wanted` holds.
   message(topic, wanted = () => true) {
     return this.wait(`message of ${topic}`, () => {
-      const message = this.#messages.get(topic);
+      const message = this.messages(topic).at(-1);
       return message && wanted(message.value) ? message : null;
     });
   }
 
-  count(topic) {
-    return this.#counts.get(topic) ?? 0;
+  messages(topic) {
+    return this.#messages.get(topic) ?? [];
   }
 
   async call(name, request = {}) {
@@ -157,8 +156,7 @@ export class WebClient {
     on("message", ({ subscriptionId, timestamp, data }) => {
       const topic = this.#topics.get(subscriptionId);
       const value = this.#readers.get(subscriptionId).readMessage(data);
-      this.#messages.set(topic, { timestamp, value });
-      this.#counts.set(topic, this.count(topic) + 1);
+      this.#messages.set(topic, [...this.messages(topic), { timestamp, value }]);
     });
     this.#socket.on("message", (content, isBinary) => {
       if (isBinary) return;
