@@ -35,7 +35,7 @@ the end of a step to the client's last byte, and to a plain DDS subscriber besid
 
 constexpr auto slow_pause = 50ms;
 
-struct Settings {
+struct WebBench {
   int domain = 97;
   double seconds = 5.0;
   double rate = 60.0;
@@ -88,7 +88,7 @@ std::uint64_t push_for(FrameFeed& feed, double rate, double seconds) {
   return frames;
 }
 
-void bench_row(const Settings& settings, int fast, int slow, bool with_subscriber) {
+void bench_row(const WebBench& settings, int fast, int slow, bool with_subscriber) {
   const auto participant = join(settings.domain);
   FrameFeed feed(participant, settings.particles());
   const Bridge bridge(settings.domain);
@@ -140,7 +140,7 @@ void bench_row(const Settings& settings, int fast, int slow, bool with_subscribe
 }  // namespace
 
 int main(int argc, char** argv) {
-  Settings settings;
+  WebBench settings;
   std::size_t subscriber = 0;
   CLI::App app("Measures what flexcast-web delivers and costs.", "flexcast-web-bench");
   app.footer(example);
