@@ -18,9 +18,7 @@ install_packages build tests
 # build take the name sanitized.PROGRAM below. GCC warns of uninitialised values in instrumented library code that are
 # none, so warnings are errors in the other build only.
 build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 \
-  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF \
-  -DFLEXCAST_PRECOMPILED_HEADERS=ON
-build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize" \
-  -DFLEXCAST_PRECOMPILED_HEADERS=ON
+  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF
+build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize"
 
 ctest --test-dir build-tests --output-on-failure --no-tests=error -j "$(nproc)"

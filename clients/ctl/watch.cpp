@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = HealthJudge::Clock;
 
-constexpr auto slice = 200ms;  // also how often the age of the newest status is shown anew
+constexpr auto redraw_period = 200ms;  // also how often the age of the newest status is shown anew
 
 class LinePrinter {
  public:
@@ -73,7 +73,7 @@ int run_watch(const Options& options, WorldFollower& follower, const Interruptio
     } else {
       lines.show(news, follower);
     }
-    follower.wait(slice);
+    follower.wait(redraw_period);
   }
   return 0;
 }

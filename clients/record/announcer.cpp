@@ -11,7 +11,7 @@
 namespace flexcast::record {
 namespace {
 
-constexpr std::chrono::seconds period{1};
+constexpr std::chrono::seconds announcement_period{1};
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::string Announcer::id() const {
 void Announcer::announce(flexcast_RecorderState state, const Progress& progress, std::uint64_t bytes,
                          const std::string& text) {
   const std::scoped_lock lock(mutex_);
-  if (announced_ && info_->state == state && Clock::now() - *announced_ < period) return;
+  if (announced_ && info_->state == state && Clock::now() - *announced_ < announcement_period) return;
   info_->state = state;
   info_->bytes = bytes;
   wire::set_string(info_->text, text);

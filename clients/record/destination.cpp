@@ -36,4 +36,8 @@ wire::Result<std::unique_ptr<Destination>> make_destination(const Options& optio
       std::make_unique<SingleDestination>(std::move(file).value(), std::move(make_report)));
 }
 
+mcap::Status to_mcap(const wire::Result<void>& result) {
+  return result ? mcap::Status() : mcap::Status::failure(result.error().message);
+}
+
 }  // namespace flexcast::record

@@ -31,6 +31,9 @@ class Destination : public ItemSink {
 // As the options say: one file, several by size, or the newest seconds. Creates the first file.
 wire::Result<std::unique_ptr<Destination>> make_destination(const Options& options, MakeReport make_report);
 
+// Of what wire says, as the file format says it.
+mcap::Status to_mcap(const wire::Result<void>& result);
+
 // What can be said before there is anything to record: whether the output may be created.
 wire::Result<void> check_output(const Options& options);
 

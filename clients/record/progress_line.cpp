@@ -8,7 +8,7 @@
 namespace flexcast::record {
 namespace {
 
-constexpr std::chrono::milliseconds period{250};
+constexpr std::chrono::milliseconds redraw_period{250};
 
 std::string missing_text(const Progress& progress) {
   return progress.missing == 0 ? "no gaps" : fmt::format("{} missing", progress.missing);
@@ -24,7 +24,7 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::show(const Progress& progress, std::uint64_t bytes) {
   const auto now = Clock::now();
-  if (!terminal_ || now - last_.time < period) return;
+  if (!terminal_ || now - last_.time < redraw_period) return;
   const double seconds = std::chrono::duration<double>(now - last_.time).count();
   const double frame_rate = static_cast<double>(progress.frames - last_.frames) / seconds;
   const double byte_rate = static_cast<double>(bytes - last_.bytes) / seconds;

@@ -20,10 +20,6 @@ bool is_ageing(const Message* message) {
   return message && (message->topic == wire::TopicId::frames || message->topic == wire::TopicId::status);
 }
 
-mcap::Status to_mcap(const wire::Result<void>& result) {
-  return result ? mcap::Status() : mcap::Status::failure(result.error().message);
-}
-
 }  // namespace
 
 wire::Result<std::unique_ptr<Destination>> RingDestination::create(const Options& options, MakeReport make_report) {

@@ -21,10 +21,6 @@ std::size_t size_with_rest(const Item& item) {
   return head ? size * std::max(head.value().chunks, 1u) : size;
 }
 
-mcap::Status to_mcap(const wire::Result<void>& result) {
-  return result ? mcap::Status() : mcap::Status::failure(result.error().message);
-}
-
 }  // namespace
 
 std::string part_path(const std::string& path, std::size_t number) {

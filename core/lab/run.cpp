@@ -11,6 +11,7 @@
 #include "core/lab/progress.h"
 #include "core/lab/report_json.h"
 #include "core/lab/report_text.h"
+#include "core/lab/run_length.h"
 #include "core/lab/statics.h"
 #include "core/sim/budget_control.h"
 
@@ -19,23 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-constexpr std::int64_t default_steps = 1000;
-constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
-
-Result<std::int64_t> calc_step_count(const RunOptions& options, const Settings& settings) {
-  if (options.steps) return *options.steps;
-  const std::optional<double> until = options.until ? options.until : settings.time.duration;
-  if (!until) return default_steps;
-  const double steps = std::round(*until / settings.time.step);
-  if (steps > most_steps) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%g s is too long (allowed: at most 1e15 steps of time.step = %g s)", *until,
-                  settings.time.step);
-    return Error{text};
-  }
-  return static_cast<std::int64_t>(steps);
-}
 
 bool is_stopped(const RunOptions& options) {
   return options.stop && options.stop->load(std::memory_order_relaxed);
@@ -99,7 +83,8 @@ Result<Run> run_scene(const RunOptions& options, std::ostream& log) {
   Run run{std::move(loaded).value(), "", 0, 0, 0.0, 0.0, {}};
   Simulation& simulation = *run.scene.simulation;
   run.static_tolerance = simulation.settings().solver.newton_tolerance;
-  const auto count = calc_step_count(options, simulation.settings());
+  const auto count =
+      options.steps ? Result<std::int64_t>(*options.steps) : calc_run_length(options.until, simulation.settings().time);
   if (!count) return count.error();
   run.warnings = run.scene.notes;
   for (std::string& warning : simulation.calc_warnings()) run.warnings.push_back(std::move(warning));

@@ -8,11 +8,11 @@
 namespace flexcast {
 namespace {
 
-struct Face {
+struct CornerFace {
   Triangle sorted;     // what makes two faces the same
   std::size_t number;  // 4 * element + face of the element
 
-  friend bool operator<(const Face& a, const Face& b) {
+  friend bool operator<(const CornerFace& a, const CornerFace& b) {
     return std::tie(a.sorted, a.number) < std::tie(b.sorted, b.number);
   }
 };
@@ -22,8 +22,8 @@ Triangle make_face(const Tetrahedron& tetrahedron, std::size_t face) {
   return {tetrahedron[a], tetrahedron[b], tetrahedron[c]};
 }
 
-std::vector<Face> make_sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
-  std::vector<Face> faces;
+std::vector<CornerFace> make_sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<CornerFace> faces;
   faces.reserve(4 * tetrahedra.size());
   for (std::size_t element = 0; element < tetrahedra.size(); ++element) {
     for (std::size_t face = 0; face < 4; ++face) {
@@ -39,7 +39,7 @@ std::vector<Face> make_sorted_faces(const std::vector<Tetrahedron>& tetrahedra) 
 }  // namespace
 
 std::vector<BoundaryFace> make_boundary_faces(const std::vector<Tetrahedron>& tetrahedra) {
-  const std::vector<Face> faces = make_sorted_faces(tetrahedra);
+  const std::vector<CornerFace> faces = make_sorted_faces(tetrahedra);
   std::vector<std::size_t> outer;
   for (std::size_t first = 0; first < faces.size();) {
     std::size_t end = first + 1;

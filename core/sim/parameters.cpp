@@ -12,7 +12,7 @@ namespace {
 
 using Scope = ParameterRow::Scope;
 
-std::string number_text(double value) {
+std::string shortest_text(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   char text[32];
@@ -177,10 +177,11 @@ Result<ParameterValue> convert_parameter(const std::string& name, const Paramete
 }
 
 std::string to_text(const ParameterValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+  if (const auto* number = std::get_if<double>(&value)) return shortest_text(*number);
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
   if (const auto* vector = std::get_if<Vec3>(&value)) {
-    return "[" + number_text(vector->x()) + ", " + number_text(vector->y()) + ", " + number_text(vector->z()) + "]";
+    return "[" + shortest_text(vector->x()) + ", " + shortest_text(vector->y()) + ", " + shortest_text(vector->z()) +
+           "]";
   }
   return "\"" + std::get<std::string>(value) + "\"";
 }

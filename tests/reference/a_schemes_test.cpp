@@ -9,7 +9,7 @@ namespace flexcast::test {
 namespace {
 
 // Two masses of 1 kg and 3 kg on a spring with k_s = 100 N, r = 1 m.
-std::unique_ptr<Simulation> make_orbit(std::string_view integrator, double step, double damping = 0.0) {
+std::unique_ptr<Simulation> make_swept_orbit(std::string_view integrator, double step, double damping = 0.0) {
   Model model = make_spring_model({{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {.stiffness = 100.0, .damping = damping}, 1.0);
   model.bodies[0].mass_overrides = {{1, 3.0}};
   Settings settings = make_settings(std::string(integrator), step);
@@ -24,7 +24,7 @@ TEST(Reference, A07_SweepsKeepTheMomentumOfAnOrbit) {
   for (const char* integrator : {"vbd", "xpbd"}) {
     for (const double damping : {0.0, 0.7}) {
       SCOPED_TRACE(concat(integrator, " k_d=", damping));
-      const auto simulation = make_orbit(integrator, 1e-3, damping);
+      const auto simulation = make_swept_orbit(integrator, 1e-3, damping);
       const Vec3 start = simulation->calc_report().momentum;
       run(*simulation, 2000);
       EXPECT_LE((simulation->calc_report().momentum - start).norm(), 1e-13 * start.norm());
@@ -52,7 +52,7 @@ double calc_error_at_one_second(const Simulation& simulation) {
 TEST(Reference, A08_Bdf2KeepsItsOrderAfterAChangeOfTheStep) {
   std::vector<double> errors;
   for (const double step : {2e-3, 1e-3, 5e-4}) {
-    const auto simulation = make_orbit("bdf2", step);
+    const auto simulation = make_swept_orbit("bdf2", step);
     run(*simulation, std::lround(0.4 / step));
     set_step(*simulation, 0.5 * step);
     run(*simulation, std::lround(0.2 / (0.5 * step)));
@@ -67,7 +67,7 @@ TEST(Reference, A08_Bdf2KeepsItsOrderAfterAChangeOfTheStep) {
 TEST(Reference, A08_Bdf2KeepsItsOrderWhenTheStepChangesAllTheTime) {
   std::vector<double> errors;
   for (const double step : {1e-3, 5e-4, 2.5e-4}) {
-    const auto simulation = make_orbit("bdf2", step);
+    const auto simulation = make_swept_orbit("bdf2", step);
     const int pairs = static_cast<int>(std::lround(1.0 / step / 2.0));
     for (int i = 0; i < pairs; ++i) {
       set_step(*simulation, 0.75 * step);

@@ -5,14 +5,14 @@
 namespace flexcast::server {
 namespace {
 
-constexpr std::uint64_t run = 7;
+constexpr std::uint64_t this_run = 7;
 constexpr std::size_t history = 20;
 const std::uint64_t window = RecorderRoll::calc_window(history, 64);
 
-RecorderRoll::Position at(std::uint64_t frame, std::uint64_t run_id = run) {
+RecorderRoll::Position at(std::uint64_t frame, std::uint64_t run_id = this_run) {
   return {.run_id = run_id, .frame = frame, .mailbox = 64};
 }
-RecorderRoll::Standing has(std::uint64_t next_frame, std::uint64_t run_id = run) {
+RecorderRoll::Standing has(std::uint64_t next_frame, std::uint64_t run_id = this_run) {
   return {.paused = false, .run_id = run_id, .next_frame = next_frame};
 }
 
@@ -42,9 +42,9 @@ TEST(RecorderRoll, ARecorderHoldsTheWorldUntilItHasAFrameOfTheRun) {
   EXPECT_FALSE(roll.may_step(at(0)));
   roll.note("new", has(1));
   EXPECT_TRUE(roll.may_step(at(0)));
-  EXPECT_FALSE(roll.may_step(at(0, run + 1)));  // a reset; it may still lack frames of the old run
-  roll.note("new", has(1, run + 1));
-  EXPECT_TRUE(roll.may_step(at(0, run + 1)));
+  EXPECT_FALSE(roll.may_step(at(0, this_run + 1)));  // a reset; it may still lack frames of the old run
+  roll.note("new", has(1, this_run + 1));
+  EXPECT_TRUE(roll.may_step(at(0, this_run + 1)));
 }
 
 TEST(RecorderRoll, APausedRecorderAndOneThatIsGoneHoldNothing) {
@@ -52,7 +52,7 @@ TEST(RecorderRoll, APausedRecorderAndOneThatIsGoneHoldNothing) {
   roll.note("one", has(1));
   roll.note("two", has(1));
   EXPECT_FALSE(roll.may_step(at(1000)));
-  roll.note("one", {.paused = true, .run_id = run, .next_frame = 1});
+  roll.note("one", {.paused = true, .run_id = this_run, .next_frame = 1});
   EXPECT_FALSE(roll.may_step(at(1000)));
   roll.forget("two");
   EXPECT_TRUE(roll.may_step(at(1000)));
@@ -71,7 +71,7 @@ TEST(RecorderRoll, TheFirstStepWaitsForAsManyRecordersAsItWasTold) {
   EXPECT_TRUE(roll.may_step(at(0)));
   roll.forget("two");  // later on nobody is missed
   EXPECT_TRUE(roll.may_step(at(0)));
-  EXPECT_FALSE(roll.may_step(at(0, run + 1)));
+  EXPECT_FALSE(roll.may_step(at(0, this_run + 1)));
 }
 
 TEST(RecorderRoll, KnowsWhetherEveryRecorderHasTheNewestFrame) {
@@ -81,7 +81,7 @@ TEST(RecorderRoll, KnowsWhetherEveryRecorderHasTheNewestFrame) {
   EXPECT_FALSE(roll.have_all(at(10)));
   roll.note("two", has(11));
   EXPECT_TRUE(roll.have_all(at(10)));
-  EXPECT_FALSE(roll.have_all(at(10, run + 1)));
+  EXPECT_FALSE(roll.have_all(at(10, this_run + 1)));
 }
 
 // A frame is pushed after the roll was asked, so up to window + 1 frames are under way, of two runs at a reset.

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 
 #include "tests/server/worlds.h"
 
@@ -11,14 +10,6 @@ namespace flexcast::server {
 namespace {
 
 using namespace test;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-WorldOptions started_paused() {
-  WorldOptions options;
-  options.paused = true;
-  return options;
-}
 
 // ---------------------------------------------------------------- set, get, describe
 

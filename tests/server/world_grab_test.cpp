@@ -1,7 +1,6 @@
 // Particles that are pulled, handles that exert forces, and the parameters of handles and obstacles.
 #include <gtest/gtest.h>
 
-#include <limits>
 
 #include "tests/server/worlds.h"
 
@@ -10,7 +9,6 @@ namespace {
 
 using namespace test;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t tip = 10;
 
 // Without gravity and with drag, so that it comes to rest where it is pulled.

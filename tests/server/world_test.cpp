@@ -11,14 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-WorldOptions started_paused() {
-  WorldOptions options;
-  options.paused = true;
-  return options;
-}
-
 WorldOptions started_until(double time) {
   WorldOptions options;
   options.until = time;

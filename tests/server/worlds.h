@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 namespace flexcast::server::test {
 
 inline constexpr double rope_step = 0.001;  // s
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 inline std::string rope_scene(const std::string& more = {}) {
   return R"(name = "rope"
@@ -186,5 +188,11 @@ class TestWorld {
   std::vector<Notice> notices_;
   std::vector<FrameHeader> frames_;
 };
+
+inline WorldOptions started_paused() {
+  WorldOptions options;
+  options.paused = true;
+  return options;
+}
 
 }  // namespace flexcast::server::test

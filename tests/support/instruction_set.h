@@ -43,4 +43,10 @@ inline std::int64_t plain_instruction_set() {
   return HWY_EMU128;
 }
 
+inline std::vector<InstructionSet> all_instruction_sets() {
+  std::vector<InstructionSet> sets = fused_instruction_sets();
+  sets.push_back({"plain", plain_instruction_set()});
+  return sets;
+}
+
 }  // namespace flexcast::test

@@ -11,7 +11,7 @@
 namespace flexcast {
 namespace {
 
-constexpr double tick_size = 12.0, title_size = 13.0, mark_radius = 3.2;
+constexpr double tick_size = 12.0, axis_title_size = 13.0, mark_radius = 3.2;
 constexpr double below_axis = 44.0;  // numbers and title of the x axis
 constexpr double tick_width = 85.0, tick_height = 50.0;
 constexpr double least_area = 0.45;  // of the panel's width; longer labels are cut
@@ -105,11 +105,13 @@ void PlotPanelDrawing::draw_titles(Svg& svg, const PlotArea& area) const {
     const SvgFont font{14.0, "#222222", SvgFont::Anchor::start, true};
     svg.text({left, area.panel.top + 14.0}, font, fit_text(panel_.title, 15.0, room));
   }
-  const SvgFont font{title_size, text_color};
-  if (!panel_.y.title.empty()) svg.text({left, area.box.top - 11.0}, font, fit_text(panel_.y.title, title_size, room));
+  const SvgFont font{axis_title_size, text_color};
+  if (!panel_.y.title.empty())
+    svg.text({left, area.box.top - 11.0}, font, fit_text(panel_.y.title, axis_title_size, room));
   if (panel_.x.title.empty()) return;
-  const SvgFont end{title_size, text_color, SvgFont::Anchor::end};
-  svg.text({area.box.right, area.box.bottom + 37.0}, end, fit_text(panel_.x.title, title_size, area.box.right - left));
+  const SvgFont end{axis_title_size, text_color, SvgFont::Anchor::end};
+  svg.text({area.box.right, area.box.bottom + 37.0}, end,
+           fit_text(panel_.x.title, axis_title_size, area.box.right - left));
 }
 
 PlotPanelDrawing::Points PlotPanelDrawing::place(const PlotArea& area, const PlotSeries& series) const {

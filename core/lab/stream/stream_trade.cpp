@@ -7,8 +7,8 @@
 
 #include "core/base/parallel.h"
 #include "core/lab/bench/bench_timing.h"
-#include "core/lab/output_file.h"
 #include "core/lab/progress.h"
+#include "core/lab/run_length.h"
 #include "core/lab/stream/frame_preparation.h"
 #include "core/lab/stream/stream_errors.h"
 #include "core/lab/stream/stream_trade_report.h"
@@ -18,8 +18,6 @@
 namespace flexcast {
 namespace {
 
-constexpr std::int64_t default_steps = 1000;
-constexpr double most_steps = 1e15;  // so that step numbers are exact in a double
 const std::vector<int> everies = {1, 2, 10};
 
 using FieldList = std::vector<std::string>;
@@ -49,16 +47,6 @@ std::vector<double> measure_preparations(const Simulation& simulation, const std
 double calc_size(const Model& model) {
   const Eigen::Map<const Eigen::Matrix3Xd> rest(model.rest_positions.data(), 3, model.particle_count());
   return (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
-}
-
-Result<std::int64_t> calc_step_count(const StreamTradeOptions& options, const Simulation& simulation) {
-  const TimeSettings& time = simulation.settings().time;
-  const std::optional<double> until = options.until ? options.until : time.duration;
-  if (!until) return default_steps;
-  if (*until / time.step > most_steps)
-    return Error{"--until " + exact_text(*until) +
-                 ": expected at most 1e15 steps of time.step = " + exact_text(time.step)};
-  return simulation.step_at(*until);
 }
 
 // Every state of the run to `errors`.
@@ -128,7 +116,7 @@ Result<StreamTrade> trade_stream(const StreamTradeOptions& options, std::ostream
   if (!loaded) return loaded.error();
   for (const std::string& note : loaded.value().notes) log << "flexcast-lab: warning: " << note << std::endl;
   Simulation& simulation = *loaded.value().simulation;
-  const auto count = calc_step_count(options, simulation);
+  const auto count = calc_run_length(options.until, simulation.settings().time);
   if (!count) return count.error();
 
   StreamErrors errors(everies);

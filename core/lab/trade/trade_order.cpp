@@ -6,7 +6,7 @@
 namespace flexcast {
 namespace {
 
-constexpr double agreement = 0.2, least_slope = 0.3;
+constexpr double slope_agreement = 0.2, least_slope = 0.3;
 
 double calc_slope(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::log(a[1] / b[1]) / std::log(a[0] / b[0]);
@@ -29,7 +29,7 @@ std::optional<ObservedOrder> calc_order(const std::vector<std::array<double, 2>>
     const double finest = calc_slope(points[last - 1], points[last]);
     if (!std::isfinite(finest) || finest < least_slope) continue;
     std::size_t first = last - 1;
-    while (first > 0 && std::abs(calc_slope(points[first - 1], points[first]) - finest) <= agreement) --first;
+    while (first > 0 && std::abs(calc_slope(points[first - 1], points[first]) - finest) <= slope_agreement) --first;
     const std::size_t count = last - first + 1;
     if (count >= 3) return ObservedOrder{fit_slope(points, first, count), static_cast<int>(count)};
   }

@@ -14,7 +14,7 @@
 namespace flexcast::record {
 namespace {
 
-constexpr std::uint64_t server = 1;  // a writer
+constexpr std::uint64_t the_server = 1;  // a writer
 
 wire::FrameHead head_of(std::uint64_t run_id, std::uint64_t frame) {
   wire::FrameHead head;
@@ -63,12 +63,12 @@ TEST(AccountNote, TellsAnotherLedgerAllThatTheFramesThemselvesDoNot) {
         if (one_of(6)) continue;  // lost
         const wire::FrameHead head = head_of(run_id, frame);
         const Verdict verdict = live.judge(head);
-        if (verdict == Verdict::paused) live.skip(head, server);
+        if (verdict == Verdict::paused) live.skip(head, the_server);
         if (verdict != Verdict::record) continue;
         if (one_of(5)) {
-          live.drop(head, server);
+          live.drop(head, the_server);
         } else {
-          live.add(head, server);
+          live.add(head, the_server);
           ASSERT_EQ(told.judge(head), Verdict::record);
           told.add(head, 0);  // nobody knows who sent it
         }

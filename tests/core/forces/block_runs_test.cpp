@@ -154,12 +154,6 @@ Blocks calc_expected(const Model& model, const VecX& x) {
   return all;
 }
 
-std::vector<InstructionSet> all_instruction_sets() {
-  std::vector<InstructionSet> sets = fused_instruction_sets();
-  sets.push_back({"plain", plain_instruction_set()});
-  return sets;
-}
-
 Model make_springs(const Mesh& mesh) {
   std::vector<Spring> springs;
   for (const Tetrahedron& t : mesh.tetrahedra) springs.push_back({t[0], t[1]});

@@ -98,12 +98,6 @@ VecX deform(const VecX& rest, double amount, std::uint64_t seed) {
   return x;
 }
 
-std::vector<InstructionSet> all_instruction_sets() {
-  std::vector<InstructionSet> sets = fused_instruction_sets();
-  sets.push_back({"plain", plain_instruction_set()});
-  return sets;
-}
-
 // Edges are 0.25 long: at 0.15 many elements are inverted, some nearly flat.
 class ElementKernels : public testing::TestWithParam<double> {};
 

@@ -12,7 +12,7 @@
 namespace flexcast::test {
 namespace {
 
-constexpr double g = 9.81;
+constexpr double earth_gravity = 9.81;
 
 Settings settings_of(double step) {
   Settings settings = make_settings("quasi_static", step);
@@ -24,19 +24,19 @@ Model make_chain(int links, double stiffness) {
   const Mesh mesh = make_rope(links, 1.0);
   Model model = make_spring_model(mesh.nodes, mesh.springs, {.stiffness = stiffness, .damping = 0.1}, 0.1);
   std::fill_n(model.fixed.begin(), 3, std::uint8_t{1});
-  model.gravity = {0, 0, -g};
+  model.gravity = {0, 0, -earth_gravity};
   return model;
 }
 
 // Link k of n carries the weight of the n - k particles below: l = r (1 + (n -
-// k) m g / k_s).
+// k) m earth_gravity / k_s).
 void expect_hanging(const Simulation& simulation, double tolerance) {
   const Model& model = simulation.model();
   const int links = static_cast<int>(model.springs.size());
   const double r = 1.0 / links;
   Vec3 expected = Vec3::Zero();
   for (int k = 0; k < links; ++k) {
-    expected.z() -= r * (1.0 + (links - k) * 0.1 * g / model.bodies[0].stiffness);
+    expected.z() -= r * (1.0 + (links - k) * 0.1 * earth_gravity / model.bodies[0].stiffness);
     EXPECT_LE((position(simulation, k + 1) - expected).norm(), tolerance) << k;
   }
 }
@@ -83,7 +83,7 @@ TEST(QuasiStatic, FreeBodiesDoNotDriftOverAThousandSteps) {
     Model model = body == "springs" ? make_spring_model(lattice.nodes, lattice.springs, {.stiffness = 50.0}, 0.1)
                   : body == "tet10" ? make_quadratic_model(mesh, elastic)
                                     : make_beam_model(mesh, elastic);
-    model.gravity = {1, -2, -g};
+    model.gravity = {1, -2, -earth_gravity};
     SplitMix64 random(9);
     const VecX& rest = model.rest_positions;
     VecX v(rest.size());
@@ -120,7 +120,7 @@ TEST(QuasiStatic, AFreeBodyUnderALoadStretchesAsIfItAccelerated) {
 
 TEST(QuasiStatic, ABodyRestsOnTheObstacleThatCarriesIt) {
   Model model = make_beam_model(make_beam({2, 2, 2}, {0.2, 0.2, 0.2}), {.young = 1e5});
-  model.gravity = {0, 0, -g};
+  model.gravity = {0, 0, -earth_gravity};
   Obstacle ground;
   ground.name = "ground";
   model.obstacles = {ground};
@@ -135,7 +135,7 @@ TEST(QuasiStatic, ABodyRestsOnTheObstacleThatCarriesIt) {
     force->add_conservative(simulation.state().positions, all);
     for (std::int64_t i = 0; i < model.particle_count(); ++i) push += all[3 * i + 2];
   }
-  EXPECT_NEAR(push, 8.0 * g, 1e-6 * 8.0 * g);
+  EXPECT_NEAR(push, 8.0 * earth_gravity, 1e-6 * 8.0 * earth_gravity);
 }
 
 // What was moving has stopped: the books have to know where that went.

@@ -60,7 +60,7 @@ Model with_handle_and_pin() {
   return model;
 }
 
-std::vector<DescentCase> cases() {
+std::vector<DescentCase> descent_cases() {
   return {{"springs", make_springs},
           {"damped_springs", [] { return with_damping(make_springs()); }},
           {"tet4", [] { return make_tet4(); }},
@@ -115,7 +115,7 @@ TEST_P(VbdCase, SweepsDescend) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Everything, VbdCase, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Everything, VbdCase, testing::ValuesIn(descent_cases()),
                          [](const auto& row) { return row.param.name; });
 
 // Normal forces of friction are those of the step's start here: what differs

@@ -95,10 +95,10 @@ const Assignments& all_changes() {
   return changes;
 }
 
-const char* const schemes[] = {"forward_euler", "symplectic_euler", "velocity_verlet", "rk4", "backward_euler"};
+const char* const tried_schemes[] = {"forward_euler", "symplectic_euler", "velocity_verlet", "rk4", "backward_euler"};
 
 TEST(LiveParameters, AChangeEqualsAFreshStartWithTheNewValueToTheBit) {
-  for (const char* scheme : schemes) {
+  for (const char* scheme : tried_schemes) {
     for (const ParameterAssignment& change : all_changes()) {
       SCOPED_TRACE(std::string(scheme) + ": " + change.name + " = " + to_text(change.value));
       const auto live = make(scene_text(scheme));
@@ -126,7 +126,7 @@ TEST(LiveParameters, AChangeBeforeTheFirstStepEqualsASceneWithThatValue) {
 }
 
 TEST(LiveParameters, AChangeThatIsNoneChangesNothingButTheRevision) {
-  for (const char* scheme : schemes) {
+  for (const char* scheme : tried_schemes) {
     const auto changed = make(scene_text(scheme)), plain = make(scene_text(scheme));
     run(*changed, 20);
     run(*plain, 20);

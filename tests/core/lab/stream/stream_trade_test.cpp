@@ -21,16 +21,16 @@ namespace {
 using Json = nlohmann::json;
 using enum StreamPrecision;
 
-constexpr const char* beam = R"(
-name = "beam"
+constexpr const char* beam_scene = R"(
+name = "beam_scene"
 gravity = [0, 0, -9.81]
 [time]
 step = 0.002
 integrator = "backward_euler"
 [[body]]
-name = "beam"
+name = "beam_scene"
 model = "fem"
-mesh = { shape = "beam", cells = [4, 1, 1], size = [1.0, 0.2, 0.2] }
+mesh = { shape = "beam_scene", cells = [4, 1, 1], size = [1.0, 0.2, 0.2] }
 material = { law = "corotational", young = 1e5, poisson = 0.3, density = 1000.0 }
 pin = [ { select = { box = [[-1e-9, -1, -1], [1e-9, 1, 1]] } } ]
 )";
@@ -86,7 +86,7 @@ class LabStreamTrade : public testing::Test {
 };
 
 TEST_F(LabStreamTrade, HasARowForEveryFormat) {
-  ASSERT_EQ(trade(beam, {"--until", "0.1", "--json"}), 0) << log_.str();
+  ASSERT_EQ(trade(beam_scene, {"--until", "0.1", "--json"}), 0) << log_.str();
   EXPECT_EQ(json()["rows"].size(), 27u);
   EXPECT_EQ(json()["steps"], 50);
   EXPECT_EQ(json()["particles"], 20);
@@ -98,7 +98,7 @@ TEST_F(LabStreamTrade, HasARowForEveryFormat) {
 }
 
 TEST_F(LabStreamTrade, DoublesOfEveryStepLoseNothingAndOthersTheirRounding) {
-  ASSERT_EQ(trade(beam, {"--until", "0.1", "--json"}), 0) << log_.str();
+  ASSERT_EQ(trade(beam_scene, {"--until", "0.1", "--json"}), 0) << log_.str();
   EXPECT_EQ(find("float64", 1, 1)["error"], 0.0);
   const double single = find("float32", 1, 1)["error"], quantized = find("quantized16", 1, 1)["error"];
   EXPECT_GT(single, 0.0);
@@ -111,7 +111,7 @@ TEST_F(LabStreamTrade, DoublesOfEveryStepLoseNothingAndOthersTheirRounding) {
 }
 
 TEST_F(LabStreamTrade, NamesTheCheapestFormats) {
-  ASSERT_EQ(trade(beam, {"--until", "0.1", "--json"}), 0) << log_.str();
+  ASSERT_EQ(trade(beam_scene, {"--until", "0.1", "--json"}), 0) << log_.str();
   const Json cheapest = json()["cheapest"], rows = json()["rows"];
   ASSERT_EQ(cheapest.size(), 3u);
   EXPECT_EQ(cheapest[0]["relative_error"], 1e-3);
@@ -126,7 +126,7 @@ TEST_F(LabStreamTrade, NamesTheCheapestFormats) {
 }
 
 TEST_F(LabStreamTrade, WritesItsFiles) {
-  ASSERT_EQ(trade(beam, {"--until", "0.02", "-o", folder_ / "new" / "formats"}), 0) << log_.str();
+  ASSERT_EQ(trade(beam_scene, {"--until", "0.02", "-o", folder_ / "new" / "formats"}), 0) << log_.str();
   const std::string csv = read("new/formats/stream.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 28);
   EXPECT_NE(csv.find("\nquantized16,positions+velocities+stretch+stress,10,"), std::string::npos) << csv;
