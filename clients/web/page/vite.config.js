@@ -1,0 +1,23 @@
+import { defineConfig } from "vite";
+
+// The bridge serves the page and its WebSocket in one port; while developing, vite serves the page and hands the
+// WebSocket on to a running bridge: FLEXCAST_WEB=127.0.0.1:8080 npx vite
+export default defineConfig({
+  build: {
+    target: "es2022",
+    assetsInlineLimit: 0, // the page's policy allows no data: addresses
+    chunkSizeWarningLimit: 1500,
+    modulePreload: { polyfill: false },
+  },
+  server: {
+    host: "127.0.0.1",
+    proxy: {
+      "^/$": {
+        target: `http://${process.env.FLEXCAST_WEB ?? "127.0.0.1:8080"}`,
+        ws: true,
+        changeOrigin: true,
+        bypass: (request) => (request.headers.upgrade ? undefined : request.url),
+      },
+    },
+  },
+});
