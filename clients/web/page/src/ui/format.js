@@ -34,3 +34,6 @@ export function formatClock(seconds) {
   const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, "0");
   return `${minutes}:${rest}`;
 }
+
+/** A unit as one prints it: m/s², N·s. */
+export const formatUnit = (unit) => unit.replace("^2", "²").replace("^3", "³").replace(/(?<=[A-Za-z])\.(?=[A-Za-z])/g, "·");

@@ -1,7 +1,7 @@
 import { VALUE_KINDS } from "../decode/idl.js";
 import { plainValue, rangeText, sameValue } from "../model/values.js";
 import { icon, make, setText } from "./dom.js";
-import { formatCount, formatNumber } from "./format.js";
+import { formatCount, formatNumber, formatUnit } from "./format.js";
 import { SliderScale } from "./slider_scale.js";
 
 const AXES = ["x", "y", "z"];
@@ -38,7 +38,7 @@ export class ParameterRow {
       { class: "tiny", title: `Reset to ${this.#write(this.initial)}`, "aria-label": `Reset ${descriptor.name}`, hidden: true, onclick: () => this.send(this.initial) },
       icon("undo"),
     );
-    const unit = make("span", { class: "unit" }, descriptor.unit);
+    const unit = make("span", { class: "unit" }, formatUnit(descriptor.unit));
     this.#inputs = this.#makeInputs();
     this.#slider = this.#makeSlider();
     const short = descriptor.name.slice(descriptor.name.indexOf(".") + 1);

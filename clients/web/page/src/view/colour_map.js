@@ -4,8 +4,8 @@ const STEPS = 256;
 
 /** For what begins at zero: from deep indigo over teal to light yellow. */
 export const SEQUENTIAL = sampled([
-  [0.3, 0.11, 285],
-  [0.45, 0.13, 265],
+  [0.36, 0.13, 288],
+  [0.48, 0.14, 265],
   [0.6, 0.12, 220],
   [0.75, 0.14, 165],
   [0.86, 0.16, 125],
@@ -74,4 +74,6 @@ function smooth(points, pieces) {
   return curve;
 }
 
-const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+function distance(a, b) {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}

@@ -40,9 +40,9 @@ export class Ground {
     this.#bounds = bounds;
     this.height = height;
     const size = Math.max(bounds[3] - bounds[0], bounds[4] - bounds[1], 0.5 * (bounds[5] - bounds[2]), 1e-6);
-    this.spacing = niceAbove(size / 4);
+    this.spacing = niceAbove(size / 5);
     const centre = [0, 1].map((axis) => (bounds[axis] + bounds[axis + 3]) / 2);
-    const reach = 5 * size;
+    const reach = 4 * size;
     this.#uniforms.spacing.value = this.spacing;
     this.#uniforms.reach.value = reach;
     this.#uniforms.centre.value.set(...centre);
@@ -65,18 +65,14 @@ export class Ground {
     }
     this.#labels.clear();
     const { spacing } = this;
-    const [low, high] = [0, 1].map((axis) => [
-      Math.floor(this.#bounds[axis] / spacing - 0.5) * spacing,
-      Math.ceil(this.#bounds[axis + 3] / spacing + 0.5) * spacing,
+    const [[left, right], [near, far]] = [0, 1].map((axis) => [
+      Math.floor(this.#bounds[axis] / spacing + 1e-6) * spacing,
+      Math.ceil(this.#bounds[axis + 3] / spacing - 1e-6) * spacing,
     ]);
-    for (let x = low[0]; x < low[1] + spacing / 2; x += spacing) {
-      this.#put(`${tidy(x)}`, x, high[0] - 0.22 * spacing);
-    }
-    for (let y = high[0]; y < high[1] + spacing / 2; y += spacing) {
-      this.#put(`${tidy(y)}`, low[1] + 0.22 * spacing, y);
-    }
-    this.#put("x, m", low[1] + 0.5 * spacing, high[0] - 0.35 * spacing);
-    this.#put("y, m", low[1] + 0.42 * spacing, high[1] + 0.32 * spacing);
+    for (let x = left; x < right + spacing / 2; x += spacing) this.#put(`${tidy(x)}`, x, near - 0.3 * spacing);
+    for (let y = near; y < far + spacing / 2; y += spacing) this.#put(`${tidy(y)}`, right + 0.3 * spacing, y);
+    this.#put("x, m", (left + right) / 2, near - 0.75 * spacing);
+    this.#put("y, m", right + 0.75 * spacing, (near + far) / 2);
   }
 
   #put(text, x, y) {

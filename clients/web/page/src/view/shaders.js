@@ -154,7 +154,7 @@ export const GRID = {
     }
     void main() {
       float fade = 1.0 - smoothstep(0.35, 1.0, distance(place, centre) / reach);
-      float seen = max(0.45 * lines(spacing / 5.0, 0.5), lines(spacing, 0.75));
+      float seen = max(0.3 * lines(spacing / 5.0, 0.5), lines(spacing, 0.75));
       gl_FragColor = vec4(line, strength * seen * fade);
     }`,
 };

@@ -116,7 +116,7 @@ export class Viewport {
   /** Brings everything into view, as first seen with `home`, else from where one looks. Smoothly, if asked. */
   fit({ home = false, smoothly = true } = {}) {
     if (!this.body) return;
-    const bounds = boundsOf(this.body.positions);
+    const bounds = this.#seenBounds();
     const centre = new THREE.Vector3(...[0, 1, 2].map((axis) => (bounds[axis] + bounds[axis + 3]) / 2));
     const radius = Math.max(Math.hypot(...[0, 1, 2].map((axis) => bounds[axis + 3] - bounds[axis])) / 2, 0.25 * this.#size);
     const angle = THREE.MathUtils.degToRad(this.#camera.fov / 2);
@@ -124,7 +124,7 @@ export class Viewport {
     const canvas = this.#renderer.domElement;
     const [width, height] = [canvas.clientWidth - left - right, canvas.clientHeight - top - bottom];
     const narrow = Math.min(1, width / Math.max(height, 1)) * Math.max(height / canvas.clientHeight, 0.3);
-    const distance = (1.12 * radius) / Math.sin(Math.atan(Math.tan(angle) * narrow));
+    const distance = (1.02 * radius) / Math.sin(Math.atan(Math.tan(angle) * narrow));
     const direction = home ? VIEW.clone() : this.#camera.position.clone().sub(this.controls.target).normalize();
     const position = centre.clone().addScaledVector(direction, distance);
     if (smoothly) {
@@ -210,16 +210,18 @@ export class Viewport {
     const obstacles = obstaclesOf(parameters);
     if (!this.#obstacles.update(obstacles, this.#size) && this.#ground.revision === topology.revision) return;
     this.#ground.revision = topology.revision;
-    const bounds = boundsOf(topology.rest_positions);
-    for (const { kind, center, radius } of obstacles) {
-      if (kind === "sphere") center.forEach((value, axis) => {
-        bounds[axis] = Math.min(bounds[axis], value - radius);
-        bounds[axis + 3] = Math.max(bounds[axis + 3], value + radius);
-      });
-    }
+    const bounds = united(boundsOf(topology.rest_positions), obstacles);
     this.#ground.lay(bounds, groundHeight(obstacles) ?? this.#floor(bounds));
     this.#setShadow();
     this.changed = true;
+  }
+
+  // Of the bodies, and of the ground and obstacles they are about to meet.
+  #seenBounds() {
+    const bounds = boundsOf(this.body.positions);
+    const { height } = this.#ground;
+    if (bounds[2] > height && bounds[2] - height < 1.5 * this.#size) bounds[2] = height;
+    return united(bounds, obstaclesOf(this.#world.parameters));
   }
 
   // z = 0 where the scene is about there, else a line of the grid below it.
@@ -257,4 +259,18 @@ export class Viewport {
     this.#flight = left > 1 ? { position, target, left: left - 1 } : null;
     this.changed = true;
   }
+}
+
+// With balls and boxes, unless they are far larger than the bodies.
+function united(bounds, obstacles) {
+  const size = Math.max(...[0, 1, 2].map((axis) => bounds[axis + 3] - bounds[axis]));
+  for (const { center, radius, lo, hi } of obstacles) {
+    const box = lo ? [...lo, ...hi] : center ? [...center.map((x) => x - radius), ...center.map((x) => x + radius)] : null;
+    if (!box || Math.max(...[0, 1, 2].map((axis) => box[axis + 3] - box[axis])) > 3 * size) continue;
+    for (let axis = 0; axis < 3; ++axis) {
+      bounds[axis] = Math.min(bounds[axis], box[axis]);
+      bounds[axis + 3] = Math.max(bounds[axis + 3], box[axis + 3]);
+    }
+  }
+  return bounds;
 }
