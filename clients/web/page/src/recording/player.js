@@ -16,6 +16,7 @@ export class Player extends Emitter {
   #world;
   #read = []; // messages that follow `seconds`, in order
   #source = null; // iterator of what follows them; null: nothing does
+  #from = 0; // statuses up to it are known
   #filling = null;
   #seeks = 0; // so that a seek knows that a later one has begun
   #seeking = false;
@@ -61,7 +62,9 @@ export class Player extends Emitter {
       this.#takeKept();
       for (const bytes of frame?.samples ?? []) this.#give({ topic: "frames", seconds: frame.seconds, bytes });
       if (status) this.#give({ topic: "status", seconds: at, bytes: status });
-      this.#source = this.recording.from(Math.max(at, this.#frameSeconds) + BACK);
+      // From the frame's first chunk on: those of the next frame may be among its own.
+      this.#source = this.recording.from(frame?.begins ?? at);
+      this.#from = at;
       this.#seeking = false;
       this.emit("moved");
       await this.#fill();
@@ -116,7 +119,7 @@ export class Player extends Emitter {
       const { done, value } = await source.next();
       if (source !== this.#source) continue; // a seek began meanwhile
       if (done) this.#source = null;
-      else this.#read.push(value);
+      else if (value.topic === "frames" || value.seconds > this.#from) this.#read.push(value);
     }
   }
 

@@ -67,8 +67,8 @@ export class Recording {
   }
 
   /**
-   * The last whole frame at a time, or the first one when the recording begins later: {seconds, samples}; null when there
-   * is none at all.
+   * The last whole frame at a time, or the first one when the recording begins later: {seconds, begins, samples}, with the
+   * times of its last and its first sample; null when there is none at all.
    */
   async frameAt(seconds) {
     const endTime = this.#nanoseconds(seconds);
@@ -107,10 +107,12 @@ async function firstWhole(messages) {
   for await (const { seconds, bytes } of messages) {
     const { run_id, frame, chunk, chunks } = peekFrame(bytes);
     const key = `${run_id} ${frame}`;
-    const parts = open.get(key) ?? [];
-    parts[chunk] = bytes;
+    const parts = open.get(key) ?? { samples: [], times: [] };
+    parts.samples[chunk] = bytes;
+    parts.times.push(seconds);
     open.set(key, parts);
-    if (parts.length === chunks && !parts.includes(undefined)) return { seconds, samples: parts };
+    if (parts.samples.length < chunks || parts.samples.includes(undefined)) continue;
+    return { seconds: Math.max(...parts.times), begins: Math.min(...parts.times), samples: parts.samples };
   }
   return null;
 }

@@ -11,8 +11,8 @@ export class SliderScale {
   static steps = STEPS;
 
   constructor(minimum, maximum, around) {
-    const positive = minimum >= 0 && around > 0;
-    if (positive && (maximum / Math.max(minimum, around / 100) >= WIDE || !Number.isFinite(maximum))) {
+    const wide = minimum > 0 && maximum / minimum >= WIDE;
+    if (minimum >= 0 && around > 0 && (wide || !Number.isFinite(maximum))) {
       this.logarithmic = true;
       this.low = Math.max(minimum, around / 100);
       this.high = Math.min(maximum, around * 100);

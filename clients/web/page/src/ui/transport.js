@@ -30,7 +30,7 @@ export class Transport {
     this.#rate = make("select", { id: "rate", "aria-label": "Rate: simulated seconds per second", onchange: ({ target }) => actions.setRate(Number(target.value)) });
     this.#speed = make("select", { "aria-label": "Speed of playing", onchange: ({ target }) => actions.setSpeed(Number(target.value)) }, ...SPEEDS.map((speed) => make("option", { value: speed, selected: speed === 1 }, `${speed}×`)));
     this.timeline = new Timeline(actions.seek);
-    this.#live = make("button", { class: "quiet", id: "go-live", onclick: actions.goLive }, "Back to live");
+    this.#live = make("button", { class: "quiet", id: "go-live", title: "Back to the live world", onclick: actions.goLive }, make("span", { class: "wide" }, "Back to "), "live");
     const rate = make("label", { class: "rate" }, make("span", {}, "rate"), this.#rate);
     this.#parts = { live: [this.#reset, rate], recording: [this.#back, this.timeline.element, this.#clock, this.#speed, this.#live] };
     element.append(this.#play, this.#back, this.#step, this.#reset, this.timeline.element, this.#clock, this.#speed, rate, this.#live);

@@ -69,10 +69,10 @@ export class Ground {
       Math.floor(this.#bounds[axis] / spacing + 1e-6) * spacing,
       Math.ceil(this.#bounds[axis + 3] / spacing - 1e-6) * spacing,
     ]);
-    for (let x = left; x < right + spacing / 2; x += spacing) this.#put(`${tidy(x)}`, x, near - 0.3 * spacing);
-    for (let y = near; y < far + spacing / 2; y += spacing) this.#put(`${tidy(y)}`, right + 0.3 * spacing, y);
-    this.#put("x, m", (left + right) / 2, near - 0.75 * spacing);
-    this.#put("y, m", right + 0.75 * spacing, (near + far) / 2);
+    for (let x = left; x < right + spacing / 2; x += spacing) this.#put(`${written(x, spacing)}`, x, near - 0.3 * spacing);
+    for (let y = near; y < far + spacing / 2; y += spacing) this.#put(`${written(y, spacing)}`, right + 0.3 * spacing, y);
+    this.#put("x in m", (left + right) / 2, near - 0.85 * spacing);
+    this.#put("y in m", right + 1.0 * spacing, (near + far) / 2);
   }
 
   #put(text, x, y) {
@@ -87,7 +87,7 @@ export class Ground {
   }
 }
 
-const tidy = (value) => Number(value.toPrecision(6)) || 0;
+const written = (value, spacing) => Number((Math.round(value / spacing) * spacing).toPrecision(6));
 
 function writing(text, ink) {
   const canvas = document.createElement("canvas");
