@@ -117,14 +117,16 @@ test("a service's answer belongs to its call, and a failure is its sentence", as
 });
 
 test("a lost connection fails what waits, comes back by itself and subscribes again", async (context) => {
-  context.mock.timers.enable({ apis: ["setTimeout"] });
+  let later;
+  context.mock.method(globalThis, "setTimeout", (then, wait) => (later = { then, wait }));
   const { socket, live, sockets, begin } = connected();
   socket.advertise();
   const call = live.command("pause");
   socket.onclose();
   await assert.rejects(call, /lost/);
   assert.equal(live.link.state, "lost");
-  context.mock.timers.tick(250);
+  assert.equal(later.wait, 250);
+  later.then();
   assert.equal(sockets.length, 2);
   begin().advertise();
   assert.equal(live.link.state, "connected");
