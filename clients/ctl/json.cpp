@@ -6,6 +6,7 @@
 namespace flexcast::ctl {
 namespace {
 
+using client::to_json;
 using wire::elements;
 using wire::name_of;
 
@@ -17,7 +18,7 @@ Json to_json(const client::Descriptor& d) {
   return {{"name", d.name},
           {"kind", name_of(d.kind)},
           {"unit", d.unit},
-          {"initial", ctl::to_json(d.initial)},
+          {"initial", to_json(d.initial)},
           {"minimum", d.minimum},
           {"maximum", d.maximum},
           {"minimum_open", d.minimum_open},
@@ -25,30 +26,6 @@ Json to_json(const client::Descriptor& d) {
           {"choices", d.choices},
           {"live", d.live},
           {"description", d.description}};
-}
-
-Json to_json(const flexcast_StepReport& r) {
-  return {{"step", r.step},
-          {"time", r.time},
-          {"kinetic", r.kinetic},
-          {"elastic", r.elastic},
-          {"gravity", r.gravity},
-          {"contact", r.contact},
-          {"work", r.work},
-          {"dissipated", r.dissipated},
-          {"numerical", r.numerical},
-          {"momentum", r.momentum},
-          {"angular_momentum", r.angular_momentum},
-          {"residual", r.residual},
-          {"iterations", r.iterations},
-          {"linear_iterations", r.linear_iterations},
-          {"converged", r.converged},
-          {"error_estimate", r.error_estimate},
-          {"stability_margin", r.stability_margin},
-          {"inverted", r.inverted},
-          {"min_j", r.min_j},
-          {"wall_seconds", r.wall_seconds},
-          {"substeps", r.substeps}};
 }
 
 Json to_json(const flexcast_Failure& f) {
@@ -62,10 +39,6 @@ Json to_json(const flexcast_Failure& f) {
 }
 
 }  // namespace
-
-Json to_json(const client::Value& value) {
-  return std::visit([](const auto& content) { return Json(content); }, value);
-}
 
 Json to_json(const client::Reply& reply, const std::string& world) {
   Json json{{"outcome", name_of(reply.outcome)}};

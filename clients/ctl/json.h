@@ -1,19 +1,18 @@
 // What flexcast-ctl prints with --json. Numbers that are not finite become null.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "clients/client/json.h"
 #include "clients/client/reply.h"
 #include "idl/wire/world_watch.h"
 
 namespace flexcast::ctl {
 
-using Json = nlohmann::ordered_json;
+using client::Json;
+using client::to_json;
 
 // {"outcome": "applied", "applied_step": 12, "time": 0.012, "values": {NAME: VALUE}, ...}; "reason" unless applied,
 // "descriptors" and "report" where the kind of command has them.
 Json to_json(const client::Reply& reply, const std::string& world);
-Json to_json(const client::Value& value);
 Json to_json(const flexcast_Status& status);
 
 }  // namespace flexcast::ctl

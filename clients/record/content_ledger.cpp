@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "clients/record/message_head.h"
 #include "idl/wire/decode.h"
 #include "idl/wire/fill.h"
 #include "idl/wire/frame_head.h"
+#include "idl/wire/message_head.h"
 
 namespace flexcast::record {
 
 void ContentLedger::note(wire::TopicId topic, std::int64_t log_time, mcap::Bytes bytes) {
   last_time_ = std::max(last_time_, log_time);
-  if (world_.empty()) world_ = peek_world(topic, bytes).value_or("");
+  if (world_.empty()) world_ = wire::peek_world(topic, bytes).value_or("");
   if (topic == wire::TopicId::frames) note_frame(log_time, bytes);
   if (topic == wire::TopicId::status) note_status(bytes);
   if (topic == wire::TopicId::scene) note_scene(bytes);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "clients/record/message_head.h"
 #include "idl/wire/decode.h"
 #include "idl/wire/fill.h"
+#include "idl/wire/message_head.h"
 
 namespace flexcast::record {
 namespace {
@@ -192,7 +192,7 @@ void Receiver::receive_scenes() {
 
 bool Receiver::belongs(wire::TopicId topic, const wire::RawSample& sample) {
   if (!sample.info.valid) return false;  // the end of an instance: no data
-  const auto world = peek_world(topic, sample.bytes);
+  const auto world = wire::peek_world(topic, sample.bytes);
   if (world) return world == world_;
   const std::scoped_lock lock(mutex_);
   ++reception_.unreadable;

@@ -34,6 +34,7 @@ const Arrows arrows = {
     {"clients/recording", {"clients/mcap", "idl/wire"}},
     {"clients/replay", {"clients/client", "clients/recording"}},
     {"clients/export", {"clients/client", "clients/recording"}},
+    {"clients/web", {"clients/client"}},
     {"clients/verify", {"clients/recording", "server/convert"}},
     {"server/convert", {"core/lab", "idl/wire"}},
     {"server", {"server/convert"}},
@@ -42,6 +43,7 @@ const Arrows arrows = {
 // Headers of a library and the one folder that may see them.
 const std::map<std::string, std::string> owners = {
     {R"(^(dds/|ddsc/|flexcast\.h))", "idl/wire"},
+    {R"(^boost/)", "clients/web"},
     {R"(^toml)", "core/scene"},
     {R"(^lz4)", "clients/mcap"},
     {R"(^zstd)", "clients/mcap"},

@@ -1,14 +1,12 @@
-#include "clients/record/message_head.h"
+#include "idl/wire/message_head.h"
 
 #include <array>
 #include <cstdint>
 
 #include "idl/wire/frame_head.h"
 
-namespace flexcast::record {
+namespace flexcast::wire {
 namespace {
-
-using wire::TopicId;
 
 constexpr std::size_t first_member = 4;          // after the CDR header
 constexpr std::size_t after_topology_head = 32;  // two 64-bit numbers, then three of 32 bits
@@ -21,7 +19,7 @@ struct Row {
 
 constexpr std::array rows{
     Row{TopicId::scene, first_member},      Row{TopicId::topology, after_topology_head},
-    Row{TopicId::parameters, first_member}, Row{TopicId::frames, wire::frame_offset::world_length},
+    Row{TopicId::parameters, first_member}, Row{TopicId::frames, frame_offset::world_length},
     Row{TopicId::status, first_member},     Row{TopicId::commands, first_member},
     Row{TopicId::replies, first_member},    Row{TopicId::events, first_member},
     Row{TopicId::recorders, first_member},  Row{TopicId::recorder_commands, first_member},
@@ -46,7 +44,7 @@ std::uint32_t load_u32(std::span<const std::byte, 4> bytes, bool little_endian) 
 
 }  // namespace
 
-std::optional<std::string_view> peek_world(wire::TopicId topic, std::span<const std::byte> bytes) {
+std::optional<std::string_view> peek_world(TopicId topic, std::span<const std::byte> bytes) {
   const std::size_t at = rows[static_cast<std::size_t>(topic)].world_length;
   const std::size_t text = at + 4;
   if (bytes.size() < text) return std::nullopt;
@@ -57,4 +55,4 @@ std::optional<std::string_view> peek_world(wire::TopicId topic, std::span<const 
   return std::string_view(reinterpret_cast<const char*>(bytes.data()) + text, length - 1);
 }
 
-}  // namespace flexcast::record
+}  // namespace flexcast::wire

@@ -1,4 +1,4 @@
-#include "clients/record/message_head.h"
+#include "idl/wire/message_head.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/idl/samples.h"
 #include "tests/support/network.h"
 
-namespace flexcast::record {
+namespace flexcast::wire {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -77,4 +77,4 @@ TEST(MessageHeads, AreReadInBothByteOrdersAndInNoOtherEncoding) {
 }
 
 }  // namespace
-}  // namespace flexcast::record
+}  // namespace flexcast::wire

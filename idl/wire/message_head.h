@@ -8,10 +8,10 @@
 
 #include "idl/wire/topics.h"
 
-namespace flexcast::record {
+namespace flexcast::wire {
 
 // The world a sample belongs to, as a view into `bytes` (CDR with its 4-byte header). None if the bytes end too early
 // or are not XCDR1.
-std::optional<std::string_view> peek_world(wire::TopicId topic, std::span<const std::byte> bytes);
+std::optional<std::string_view> peek_world(TopicId topic, std::span<const std::byte> bytes);
 
-}  // namespace flexcast::record
+}  // namespace flexcast::wire
