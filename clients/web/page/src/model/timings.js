@@ -2,9 +2,11 @@ const KEPT = 600;
 
 /** How long the script took for each frame that was drawn, ms: decoding, preparing what is drawn, drawing. */
 export class Timings {
-  frames = [];
+  frames = []; // the last ones
+  drawn = 0; // in all
 
   add(decode, prepare, draw) {
+    this.drawn += 1;
     this.frames.push({ decode, prepare, draw, total: decode + prepare + draw });
     if (this.frames.length > 2 * KEPT) this.frames.splice(0, KEPT);
   }
