@@ -33,6 +33,7 @@ export class Plots {
   #plots = [];
   #span = 30;
   #cursor = null; // s, null: live
+  #duration = 0; // s, of a recording
   #drawn = "";
   #holder = make("div", { class: "plots" });
 
@@ -44,9 +45,10 @@ export class Plots {
     this.element = make("section", { class: "plots-tab" }, label, this.#holder);
   }
 
-  /** Where a recording is, s, or null: live. */
-  setCursor(seconds) {
+  /** Where a recording of that length is, s, or null: live. */
+  setCursor(seconds, duration = 0) {
     this.#cursor = seconds;
+    this.#duration = duration;
     this.spanSelect.parentElement.hidden = seconds !== null;
   }
 
@@ -81,7 +83,7 @@ export class Plots {
   }
 
   #shown(seconds) {
-    if (this.#cursor !== null) return { min: seconds[0] ?? 0, max: seconds.at(-1) ?? 1 };
+    if (this.#cursor !== null) return { min: 0, max: Math.max(this.#duration, 1e-3) };
     const now = seconds.at(-1) ?? 0;
     return { min: now - this.#span, max: now };
   }

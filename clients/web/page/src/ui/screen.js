@@ -46,7 +46,7 @@ export class Screen {
   setRecording(recording) {
     this.transport.setRecording(recording);
     this.parameters.setReadOnly(recording !== null);
-    this.plots.setCursor(recording ? 0 : null);
+    this.plots.setCursor(recording ? 0 : null, recording?.duration);
     this.refresh();
     this.#place();
   }
@@ -56,7 +56,8 @@ export class Screen {
     if (now - this.#lastText >= TEXT_PERIOD) this.refresh(now);
     if (now - this.#lastPlot < PLOT_PERIOD) return;
     this.#lastPlot = now;
-    this.#app.player && this.plots.setCursor(this.#app.player.seconds);
+    const { player } = this.#app;
+    if (player) this.plots.setCursor(player.seconds, player.recording.duration);
     this.plots.draw();
   }
 

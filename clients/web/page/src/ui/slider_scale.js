@@ -1,5 +1,5 @@
 const STEPS = 1000;
-const WIDE = 50; // from this ratio on a scale of positive numbers is logarithmic
+const WIDE = 20; // from this ratio of the end to the scene's value on a scale of positive numbers is logarithmic
 const TINY = 1e-12;
 
 /**
@@ -11,8 +11,7 @@ export class SliderScale {
   static steps = STEPS;
 
   constructor(minimum, maximum, around) {
-    const wide = minimum > 0 && maximum / minimum >= WIDE;
-    if (minimum >= 0 && around > 0 && (wide || !Number.isFinite(maximum))) {
+    if (minimum >= 0 && around > 0 && maximum / around >= WIDE) {
       this.logarithmic = true;
       this.low = Math.max(minimum, around / 100);
       this.high = Math.min(maximum, around * 100);

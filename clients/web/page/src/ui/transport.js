@@ -15,7 +15,9 @@ export class Transport {
   #reset;
   #rate;
   #speed;
-  #clock = make("span", { class: "clock" });
+  #place = make("span");
+  #length = make("span", { class: "wide" });
+  #clock = make("span", { class: "clock" }, this.#place, this.#length);
   #live;
   #parts;
 
@@ -52,7 +54,8 @@ export class Transport {
     if (rate !== null && this.#rate.dataset.rate !== String(rate)) this.#showRate(rate);
     if (!player) return;
     this.timeline.update(player.seconds);
-    setText(this.#clock, `${formatClock(player.seconds)} / ${formatClock(player.recording.duration)}`);
+    setText(this.#place, formatClock(player.seconds));
+    setText(this.#length, ` / ${formatClock(player.recording.duration)}`);
   }
 
   // A rate of somebody else's choice becomes one of the entries.

@@ -45,7 +45,6 @@ export class Body {
       resolution: { value: new THREE.Vector2(1, 1) },
       ground: { value: 0 },
       lift: { value: 0 },
-      reach: { value: 1 },
       strength: { value: 0.3 },
     };
     const surface = geometry({ position: this.#positions, normal: this.#normals, value: this.#values });
@@ -129,7 +128,6 @@ export class Body {
   setGround(height, size, strength) {
     this.#uniforms.ground.value = height;
     this.#uniforms.lift.value = 0.0005 * size;
-    this.#uniforms.reach.value = 0.35 * size;
     this.#uniforms.strength.value = strength;
   }
 

@@ -109,7 +109,7 @@ export const RIBBONS = {
     }`,
 };
 
-// The shadow on the ground: straight down, fainter the higher what throws it.
+// The shadow on the ground, of a sun that stands high.
 export const SHADOW = {
   vertexShader: /* glsl */ `
     uniform float ground;
@@ -120,12 +120,11 @@ export const SHADOW = {
       gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy + 0.12 * height, ground + lift, 1.0);
     }`,
   fragmentShader: /* glsl */ `
-    uniform float reach;
     uniform float strength;
     varying float height;
     void main() {
-      if (height < -0.02 * reach) discard;
-      gl_FragColor = vec4(0.03, 0.04, 0.08, strength * exp(-max(height, 0.0) / reach));
+      if (height < 0.0) discard;
+      gl_FragColor = vec4(0.03, 0.04, 0.08, strength);
     }`,
 };
 

@@ -34,6 +34,9 @@ export class Viewport {
   #shadow = 0.3;
   #insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #flight = null;
+  #follows = true; // until somebody turns the view
+  #fittedBounds = null;
+  #grown = null; // what they have to be
 
   constructor(canvas, world) {
     this.#world = world;
@@ -45,7 +48,10 @@ export class Viewport {
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => (this.changed = true));
-    this.controls.addEventListener("start", () => (this.#flight = null));
+    this.controls.addEventListener("start", () => {
+      this.#flight = null;
+      this.#follows = false;
+    });
     this.#scene.add(this.#ground.group, this.#obstacles.group, this.marks.group, ...this.#obstacles.lights);
     world.on("topology", (topology) => this.#setTopology(topology)).on("parameters", () => this.#setObstacles());
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -85,6 +91,7 @@ export class Viewport {
     this.#colour(elapsed);
     this.body.moved();
     this.changed = true;
+    this.#follow();
   }
 
   /** Draws if anything changed; true when it did. */
@@ -116,7 +123,8 @@ export class Viewport {
   /** Brings everything into view, as first seen with `home`, else from where one looks. Smoothly, if asked. */
   fit({ home = false, smoothly = true } = {}) {
     if (!this.body) return;
-    const bounds = this.#seenBounds();
+    this.#follows ||= home;
+    const bounds = (this.#fittedBounds = this.#seenBounds());
     const centre = new THREE.Vector3(...[0, 1, 2].map((axis) => (bounds[axis] + bounds[axis + 3]) / 2));
     const radius = Math.max(Math.hypot(...[0, 1, 2].map((axis) => bounds[axis + 3] - bounds[axis])) / 2, 0.25 * this.#size);
     const angle = THREE.MathUtils.degToRad(this.#camera.fov / 2);
@@ -216,9 +224,22 @@ export class Viewport {
     this.changed = true;
   }
 
+  // Steps back when bodies leave what the view was set for. It never comes nearer by itself.
+  #follow() {
+    if (!this.#follows || this.#flight || !this.#fittedBounds) return;
+    const before = this.#fittedBounds;
+    const { bounds } = this.#world.particles;
+    const margin = 0.1 * this.#size;
+    if ([0, 1, 2].every((axis) => bounds[axis] > before[axis] - margin && bounds[axis + 3] < before[axis + 3] + margin)) return;
+    this.#grown = [0, 1, 2, 3, 4, 5].map((i) => (i < 3 ? Math.min(before[i], bounds[i]) : Math.max(before[i], bounds[i])));
+    this.fit();
+  }
+
   // Of the bodies, and of the ground and obstacles they are about to meet.
   #seenBounds() {
-    const bounds = boundsOf(this.body.positions);
+    const grown = this.#grown;
+    this.#grown = null;
+    const bounds = grown ?? boundsOf(this.body.positions);
     const { height } = this.#ground;
     if (bounds[2] > height && bounds[2] - height < 1.5 * this.#size) bounds[2] = height;
     return united(bounds, obstaclesOf(this.#world.parameters));
