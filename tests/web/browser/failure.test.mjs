@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { keepPicture, openPage, startBrowser } from "../support/browser.mjs";
-import { waitForFrames, waitForState } from "../support/page_test.mjs";
+import { waitForPicture, waitForState } from "../support/page_test.mjs";
 import { Programs } from "../support/programs.mjs";
 
 // A beam that is far beyond its stable step.
@@ -29,7 +29,7 @@ before(async () => {
   const web = await programs.web();
   browser = await startBrowser();
   ({ page, errors } = await openPage(browser, web.address));
-  await waitForFrames(page, 1);
+  await waitForPicture(page);
 });
 
 after(async () => {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { keepPicture, lookAt, countChanged, openPage, startBrowser } from "../support/browser.mjs";
-import { assertLit, assertMoves, field, note, stepOf, waitForFrames, waitForState } from "../support/page_test.mjs";
+import { assertLit, assertMoves, field, note, stepOf, waitForFrames, waitForPicture, waitForState } from "../support/page_test.mjs";
 import { Programs, shippedScene } from "../support/programs.mjs";
 
 const programs = new Programs();
@@ -14,7 +14,7 @@ before(async () => {
   address = (await programs.web()).address;
   browser = await startBrowser();
   ({ page, errors } = await openPage(browser, address));
-  await waitForFrames(page, 1);
+  await waitForPicture(page);
 });
 
 after(async () => {
@@ -140,26 +140,29 @@ test("particles and springs, every colour, plots, probes and events can be seen"
   assert.ok((await page.locator(".plot canvas").count()) >= 5);
 });
 
-test("a second page in the dark, and one on a phone, show the same world", async () => {
-  const dark = await openPage(browser, address, { dark: true });
-  await waitForFrames(dark.page, 2);
-  await assertLit(dark.page);
-  await keepPicture(dark.page, "live-dark");
-  const phone = await openPage(browser, address, { width: 390, height: 844, phone: true });
-  await waitForFrames(phone.page, 2);
-  await assertLit(phone.page);
-  await keepPicture(phone.page, "live-phone");
-  await phone.page.click("#panel-button");
-  await phone.page.waitForTimeout(300);
-  await keepPicture(phone.page, "live-phone-panel");
-  assert.deepEqual([...dark.errors, ...phone.errors], []);
-  await dark.page.context().close();
-  await phone.page.context().close();
+test("pages in the dark and on a phone show the same world", async () => {
+  await page.click("#play"); // each of them draws but once
+  await waitForState(page, "paused");
+  const looks = { "live-dark": { dark: true }, "live-phone": { width: 390, height: 844, phone: true } };
+  for (const [name, look] of Object.entries(looks)) {
+    const other = await openPage(browser, address, look);
+    await waitForPicture(other.page);
+    await waitForState(other.page, "paused");
+    await assertLit(other.page);
+    await keepPicture(other.page, name);
+    if (look.phone) {
+      await other.page.click("#panel-button");
+      await keepPicture(other.page, "live-phone-panel");
+    }
+    assert.deepEqual(other.errors, []);
+    await other.page.context().close();
+  }
 });
 
 test("a finger that presses long grabs, one that moves at once turns the view", async () => {
   const { page: phone } = await openPage(browser, address, { width: 390, height: 844, phone: true });
-  await waitForFrames(phone, 2);
+  await waitForPicture(phone);
+  await waitForState(phone, "paused");
   const touch = await phone.context().newCDPSession(phone);
   const [x, y] = await phone.evaluate(() => {
     const { viewport, world } = window.flexcast;

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { dropFile, keepPicture, openPage, startBrowser } from "../support/browser.mjs";
-import { assertLit, assertMoves, waitForFrames, waitForState } from "../support/page_test.mjs";
+import { assertLit, assertMoves, waitForFrames, waitForPicture, waitForState } from "../support/page_test.mjs";
 import { Programs, shippedScene } from "../support/programs.mjs";
 
 const programs = new Programs();
@@ -19,7 +19,7 @@ before(async () => {
   const web = await programs.web();
   browser = await startBrowser();
   ({ page, errors } = await openPage(browser, web.address));
-  await waitForFrames(page, 1);
+  await waitForPicture(page);
 });
 
 after(async () => {

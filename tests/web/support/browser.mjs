@@ -17,13 +17,12 @@ export async function startBrowser() {
 }
 
 /** A page at an address. `errors`: whatever its console complained about, and requests to elsewhere. */
-export async function openPage(browser, address, { width = 1280, height = 800, dark = false, phone = false } = {}) {
+export async function openPage(browser, address, { width = 1000, height = 640, dark = false, phone = false } = {}) {
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: dark ? "dark" : "light",
     hasTouch: phone,
     isMobile: phone,
-    deviceScaleFactor: phone ? 2 : 1,
   });
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE);

@@ -9,6 +9,9 @@ export async function waitForFrames(page, count) {
   await page.waitForFunction((wanted) => window.flexcast.timings.drawn >= wanted, before + count);
 }
 
+/** Waits until the page has drawn anything. */
+export const waitForPicture = (page) => page.waitForFunction(() => window.flexcast.timings.drawn > 0);
+
 export const waitForState = (page, state) =>
   page.waitForFunction((wanted) => document.getElementById("state").textContent === wanted, state);
 

@@ -35,5 +35,5 @@ export function formatClock(seconds) {
   return `${minutes}:${rest}`;
 }
 
-/** A unit as one prints it: m/s², N·s. */
-export const formatUnit = (unit) => unit.replace("^2", "²").replace("^3", "³").replace(/(?<=[A-Za-z])\.(?=[A-Za-z])/g, "·");
+/** A unit as one prints it: m/s², N·s; pure numbers have none. */
+export const formatUnit = (unit) => (unit === "1" ? "" : unit).replace("^2", "²").replace("^3", "³").replace(/(?<=[A-Za-z])\.(?=[A-Za-z])/g, "·");

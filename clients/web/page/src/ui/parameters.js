@@ -2,6 +2,8 @@ import { plainValue } from "../model/values.js";
 import { icon, make, setText } from "./dom.js";
 import { ParameterRow } from "./parameter_row.js";
 
+const LAST = ["time", "solver", "stream", "server"]; // what is about bodies comes before how they are computed
+
 /** The parameters of a world, grouped by the first part of their names, with a filter. */
 export class Parameters {
   element;
@@ -51,7 +53,8 @@ export class Parameters {
       const group = dot < 0 ? "scene" : descriptor.name.slice(0, descriptor.name.indexOf("."));
       groups.set(group, [...(groups.get(group) ?? []), row]);
     }
-    this.#groups = [...groups].map(([name, rows]) => {
+    const ordered = [...groups].sort(([a], [b]) => LAST.indexOf(a) - LAST.indexOf(b));
+    this.#groups = ordered.map(([name, rows]) => {
       const element = make("details", { open: true }, make("summary", {}, name), ...rows.map((row) => row.element));
       return { element, rows };
     });

@@ -14,12 +14,16 @@ export class ColourRange {
 
   #quiet = 0; // s since the values last came near the end
 
+  /** The end is never below it: what is smaller is noise. */
+  floor = 0;
+
   constructor(patience = 3) {
     this.patience = patience;
   }
 
-  /** `largest` magnitude of a frame, `elapsed` seconds after the one before. True when the range changed. */
-  update(largest, elapsed) {
+  /** The largest `magnitude` of a frame, `elapsed` seconds after the one before. True when the range changed. */
+  update(magnitude, elapsed) {
+    const largest = Math.max(magnitude, this.floor);
     if (!Number.isFinite(largest) || largest <= 0) return false;
     if (largest > this.most) return this.#set(niceAbove(largest));
     this.#quiet = largest > this.most / 2.5 ? 0 : this.#quiet + elapsed;

@@ -1,12 +1,13 @@
 /**
  * What a body can be coloured by. `available(world)`: "" or a sentence why not. `calc(world, values)` fills one number a
- * particle and gives the largest magnitude.
+ * particle and gives the largest magnitude. `noise(size)`: what is nothing, for a scene of that size in metres.
  */
 export const COLOURINGS = {
   speed: {
     label: "Speed",
     unit: "m/s",
     diverging: false,
+    noise: (size) => 0.01 * size,
     available: () => "",
     calc: (world, values) => magnitudes(world.velocity.of(world.particles), values),
   },
@@ -14,6 +15,7 @@ export const COLOURINGS = {
     label: "Stretch",
     unit: "%",
     diverging: true,
+    noise: () => 0.1,
     available: ({ particles, topology }) =>
       particles.stretch || onlySprings(topology) ? "" : 'The stream has none: add "stretch" to [stream] fields.',
     calc: ({ particles, springStretch }, values) => {
@@ -25,6 +27,7 @@ export const COLOURINGS = {
     label: "Stress",
     unit: "Pa",
     diverging: false,
+    noise: () => 0,
     available: ({ particles }) => (particles.stress ? "" : 'The stream has none: add "stress" to [stream] fields.'),
     calc: ({ particles }, values) => scaled(particles.stress, 1, values),
   },

@@ -1,6 +1,6 @@
 import * as THREE from "three";
 
-const DOT = 7; // px
+const DOT = 11; // px
 
 /** What is drawn over the bodies: the line from a grabbed particle to where it is pulled, and the place of a failure. */
 export class Marks {
@@ -28,7 +28,8 @@ export class Marks {
 
 function marked(colour, capacity) {
   const over = { color: colour, depthTest: false, depthWrite: false, transparent: true };
-  const points = new THREE.Points(buffer(capacity), new THREE.PointsMaterial({ ...over, size: DOT * devicePixelRatio, sizeAttenuation: false }));
+  const dot = { ...over, map: roundTexture(), size: DOT * Math.min(devicePixelRatio, 2), sizeAttenuation: false };
+  const points = new THREE.Points(buffer(capacity), new THREE.PointsMaterial(dot));
   const lines = new THREE.LineSegments(buffer(capacity), new THREE.LineBasicMaterial(over));
   const group = new THREE.Group();
   for (const object of [lines, points]) {
@@ -54,4 +55,14 @@ function place({ group, points, lines }, at, segments) {
     attribute.needsUpdate = true;
     object.geometry.setDrawRange(0, places.length);
   }
+}
+
+function roundTexture() {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext("2d");
+  context.fillStyle = "#fff";
+  context.arc(16, 16, 14, 0, 2 * Math.PI);
+  context.fill();
+  return new THREE.CanvasTexture(canvas);
 }

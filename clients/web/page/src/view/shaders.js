@@ -20,7 +20,7 @@ const LIGHT = /* glsl */ `
     float diffuse = max(dot(n, key), 0.0);
     float rim = pow(1.0 - max(dot(n, eye), 0.0), 4.0);
     float shine = pow(max(dot(n, normalize(key + eye)), 0.0), 40.0);
-    vec3 light = mix(vec3(0.34, 0.33, 0.36), vec3(0.62, 0.64, 0.68), sky) + diffuse * vec3(0.52, 0.5, 0.47);
+    vec3 light = mix(vec3(0.52, 0.51, 0.54), vec3(0.86, 0.88, 0.92), sky) + diffuse * vec3(0.34, 0.33, 0.3);
     return colour * light + shine * 0.16 + rim * 0.10 * sky;
   }
 `;

@@ -180,6 +180,7 @@ export class Viewport {
       this.body.setScale(null, 0, false);
       return;
     }
+    this.#range.floor = colouring.noise(this.#size);
     this.#range.update(colouring.calc(this.#sources(), this.body.values), elapsed);
     this.body.setScale(colouring.diverging ? DIVERGING : SEQUENTIAL, this.#range.most, colouring.diverging);
   }
