@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=${1:-10}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "run_fuzzers.sh: '$seconds' is not a number of seconds" >&2; exit 2; }
 names=("${@:2}")
-((${#names[@]})) || names=(scene mesh mcap command value)
+((${#names[@]})) || names=(scene mesh mcap command value web)
 build=build-fuzz
 memory_mib=2048
 command -v clang++ >/dev/null || { echo "run_fuzzers.sh: clang++ is missing: apt-get install clang" >&2; exit 1; }
@@ -24,7 +24,7 @@ launcher=()
 ! command -v ccache >/dev/null || launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 make_fuzzers() {
   cmake --build "$engine" --target flexcast_core &&
-    cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$(realpath "$engine")" -DCMAKE_C_COMPILER=clang \
+    cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$(realpath "$engine")" -DFLEXCAST_WEB=OFF -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" &&
     cmake --build "$build" --target "${names[@]/#/fuzz_}"
 }

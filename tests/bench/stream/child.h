@@ -22,6 +22,7 @@ class Child {
   std::string hear_all();  // up to its end
 
   void signal(int number) const;
+  pid_t pid() const { return pid_; }
 
  private:
   pid_t pid_ = 0;
