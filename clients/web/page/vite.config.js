@@ -1,5 +1,7 @@
 import { defineConfig } from "vite";
 
+const bridge = `http://${process.env.FLEXCAST_WEB ?? "127.0.0.1:8080"}`;
+
 // The bridge serves the page and its WebSocket in one port; while developing, vite serves the page and hands the
 // WebSocket on to a running bridge: FLEXCAST_WEB=127.0.0.1:8080 npx vite
 export default defineConfig({
@@ -13,9 +15,10 @@ export default defineConfig({
     host: "127.0.0.1",
     proxy: {
       "^/$": {
-        target: `http://${process.env.FLEXCAST_WEB ?? "127.0.0.1:8080"}`,
+        target: bridge,
         ws: true,
         changeOrigin: true,
+        headers: { origin: bridge }, // it takes pages of its own address only
         bypass: (request) => (request.headers.upgrade ? undefined : request.url),
       },
     },

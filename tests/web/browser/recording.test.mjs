@@ -33,11 +33,15 @@ for (const compression of ["lz4", "zstd"]) {
   test(`a recording packed with ${compression} plays to its end`, async () => {
     await dropFile(page, programs.path(`${compression}.mcap`));
     await waitForState(page, "recorded, running");
+    await page.selectOption("#speed", "0.1");
+    await page.getByLabel("Time line").fill("0");
+    if (!(await page.evaluate(() => window.flexcast.player.playing))) await page.click("#play");
     await assertLit(page);
     await assertMoves(page);
+    await page.selectOption("#speed", "10");
     await page.waitForFunction(() => !window.flexcast.player.playing);
-    assert.ok(Math.abs((await seconds()) - (await page.evaluate(() => window.flexcast.player.recording.duration))) < 1e-6);
     await keepPicture(page, `recording-${compression}`);
+    assert.ok(Math.abs((await seconds()) - (await page.evaluate(() => window.flexcast.player.recording.duration))) < 1e-6);
   });
 }
 

@@ -105,6 +105,16 @@ test("another world's names begin with its own", () => {
   assert.ok(!connection.isSubscribed(101));
 });
 
+test("another home world under the same names is asked for anew", () => {
+  const { socket, world } = connected();
+  socket.advertise();
+  const status = subscriptions(socket).find(({ channelId }) => channelId === 5);
+  socket.message(status.id, sample("Status", { world: "home" }));
+  socket.say({ op: "serverInfo", name: "flexcast-web", capabilities: [], metadata: { world: "next" } });
+  assert.equal(world.status, null);
+  assert.equal(subscriptions(socket).length, 12);
+});
+
 test("a service's answer belongs to its call, and a failure is its sentence", async () => {
   const { socket, live } = connected();
   socket.advertise();

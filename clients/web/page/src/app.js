@@ -14,7 +14,7 @@ import { Screen } from "./ui/screen.js";
 import { Grab } from "./view/grab.js";
 import { Viewport } from "./view/viewport.js";
 
-const STATES = { running: 0, paused: 1 };
+const STATES = { running: 0, failed: 3 };
 
 /** The page: one World, fed by a bridge or by a recording, and what shows it. */
 export class App {
@@ -22,6 +22,7 @@ export class App {
   player = null; // of the recording that is played
   timings = new Timings();
   shown = 0; // frames of this run that were drawn
+  troubled = false; // the world has failed
   ready; // the first picture was drawn, ms after the page began
 
   #run = null;
@@ -137,9 +138,11 @@ export class App {
   }
 
   #showTrouble(status) {
+    if ((status?.state === STATES.failed) !== this.troubled && this.world.particles.total) {
+      this.troubled = status?.state === STATES.failed;
+      this.viewport.update(0);
+    }
     const points = troublePoints(status, this.world.topology, this.viewport.body?.positions);
-    if (points.length === 0 && !this.troubled) return;
-    this.troubled = points.length > 0;
     this.viewport.marks.showTrouble(points);
     this.viewport.changed = true;
   }

@@ -20,7 +20,7 @@ export class LiveWorld extends Emitter {
   #frames = true;
   #feeding = true;
   #wasOpen = false;
-  #current = null;
+  #current = null; // name of the world that is followed
 
   constructor(connection, world, wanted = "") {
     super();
@@ -96,13 +96,15 @@ export class LiveWorld extends Emitter {
     if (this.#feeding) {
       for (const topic of TOPICS) if (topic !== "frames" || this.#frames) wanted.set(`${this.#prefix()}flexcast/${topic}`, topic);
     }
-    if (this.#feeding && this.#current !== this.#prefix()) {
+    const channels = [...this.#connection.channels.values()];
+    // Under the same names there may be another home world now: all of it is asked for anew.
+    const changed = this.#feeding && this.#current !== this.name;
+    for (const { id, topic } of channels) if (changed || !wanted.has(topic)) this.#connection.unsubscribe(id);
+    if (changed) {
       this.#world.clear();
-      this.#current = this.#prefix();
+      this.#current = this.name;
     }
     // By the order of TOPICS, so that scene and topology come before frames.
-    const channels = [...this.#connection.channels.values()];
-    for (const channel of channels) if (!wanted.has(channel.topic)) this.#connection.unsubscribe(channel.id);
     for (const topic of wanted.keys()) {
       const channel = channels.find((candidate) => candidate.topic === topic);
       if (channel) this.#connection.subscribe(channel.id);

@@ -17,11 +17,11 @@ export class Notices {
     this.#reset = reset;
   }
 
-  /** `recorded`: there is nobody to reset. */
-  update(status, link, recorded) {
+  /** `recorded`: there is nobody to reset. `atRest`: bodies are shown in their rest shape. */
+  update(status, link, { recorded, atRest }) {
     const standing = [];
     if (!recorded && (link.state === "lost" || link.state === "silent")) standing.push({ kind: "bad", text: link.text });
-    if (WORLD_STATES[status?.state] === "failed") standing.push({ kind: "bad failure", trouble: status.trouble, recorded });
+    if (WORLD_STATES[status?.state] === "failed") standing.push({ kind: "bad failure", trouble: status.trouble, recorded, atRest });
     for (const text of status?.warnings ?? []) standing.push({ kind: "warning", text });
     const key = JSON.stringify(standing, (_, value) => (typeof value === "bigint" ? value.toString() : value));
     if (key === this.#key) return;
@@ -44,8 +44,8 @@ export class Notices {
   }
 
   #draw() {
-    const standing = this.#standing.map(({ kind, text, trouble, recorded }) =>
-      trouble ? this.#failure(trouble, kind, recorded) : make("p", { class: `notice ${kind}` }, text),
+    const standing = this.#standing.map(({ kind, text, trouble, recorded, atRest }) =>
+      trouble ? this.#failure(trouble, kind, recorded, atRest) : make("p", { class: `notice ${kind}` }, text),
     );
     const toasts = [...this.#toasts.keys()].map((text) =>
       make("p", { class: "notice toast" }, text, make("button", { class: "tiny", "aria-label": "Close", onclick: () => this.#drop(text) }, icon("close"))),
@@ -53,15 +53,22 @@ export class Notices {
     this.#element.replaceChildren(...standing, ...toasts);
   }
 
-  #failure({ cause, body, element, particle, step, suggestion }, kind, recorded) {
+  #failure({ cause, body, element, particle, step, suggestion }, kind, recorded, atRest) {
     const what = element >= 0 ? `element ${element}` : particle >= 0 ? `particle ${particle}` : "";
     const where = [body && `body ${body}`, what].filter(Boolean).join(", ");
+    const sentences = [
+      where && `${capital(where)}, is marked in red.`,
+      atRest && "The bodies are shown at rest: they flew apart.",
+      suggestion && `${capital(suggestion)}.`,
+    ];
     return make(
       "div",
       { class: `notice ${kind}`, role: "alert" },
       make("strong", {}, `Stopped before step ${formatCount(step)}: ${cause}`),
-      make("span", {}, [where && `${where}, marked in red.`, suggestion].filter(Boolean).join(" ")),
+      make("span", {}, sentences.filter(Boolean).join(" ")),
       recorded ? null : make("button", { class: "quiet", onclick: this.#reset }, "Reset"),
     );
   }
 }
+
+const capital = (text) => text[0].toUpperCase() + text.slice(1);

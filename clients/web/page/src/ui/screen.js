@@ -35,7 +35,8 @@ export class Screen {
       .on("status", (status) => this.#probes.update(status))
       .on("events", (events) => this.#eventsChanged(events));
     app.live.on("worlds", (worlds) => this.health.setWorlds(worlds, app.live.name)).on("link", () => this.refresh());
-    new ResizeObserver(() => this.#place()).observe(document.body);
+    const resized = new ResizeObserver(() => this.#place());
+    for (const element of [document.body, get("health")]) resized.observe(element);
     this.panel.toggle(innerWidth > NARROW);
   }
 
@@ -76,7 +77,7 @@ export class Screen {
       hand: grab.always, dark: this.theme.dark, panel: this.panel.open,
     });
     this.colourBar.update(colouring, viewport.range, unavailable(colouring), body !== null);
-    this.notices.update(world.status, live.link, recording !== null);
+    this.notices.update(world.status, live.link, { recorded: recording !== null, atRest: viewport.atRest });
     this.greeting.update(live.link, !(body && world.particles.total));
   }
 
@@ -109,6 +110,7 @@ export class Screen {
   #place() {
     const panel = get("panel");
     const open = this.panel?.open;
+    document.body.style.setProperty("--health-height", `${get("health").offsetHeight}px`);
     document.body.classList.toggle("panel-open", Boolean(open));
     const narrow = innerWidth <= NARROW;
     const beside = open && !narrow ? panel.offsetWidth + 12 : 0;

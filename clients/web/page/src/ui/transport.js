@@ -30,7 +30,7 @@ export class Transport {
     this.#step = button("step", "One step (→)", () => actions.step(1), { id: "step" });
     this.#reset = button("reset", "Reset to the start (r)", actions.reset, { id: "reset" });
     this.#rate = make("select", { id: "rate", "aria-label": "Rate: simulated seconds per second", onchange: ({ target }) => actions.setRate(Number(target.value)) });
-    this.#speed = make("select", { "aria-label": "Speed of playing", onchange: ({ target }) => actions.setSpeed(Number(target.value)) }, ...SPEEDS.map((speed) => make("option", { value: speed, selected: speed === 1 }, `${speed}×`)));
+    this.#speed = make("select", { id: "speed", "aria-label": "Speed of playing", onchange: ({ target }) => actions.setSpeed(Number(target.value)) }, ...SPEEDS.map((speed) => make("option", { value: speed, selected: speed === 1 }, `${speed}×`)));
     this.timeline = new Timeline(actions.seek);
     this.#live = make("button", { class: "quiet", id: "go-live", title: "Back to the live world", onclick: actions.goLive }, make("span", { class: "wide" }, "Back to "), "live");
     const rate = make("label", { class: "rate" }, make("span", {}, "rate"), this.#rate);

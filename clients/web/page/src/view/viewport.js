@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
+import { WORLD_STATES } from "../decode/idl.js";
 import { boundsOf } from "../model/topology.js";
 import { Body } from "./body.js";
 import { DIVERGING, SEQUENTIAL } from "./colour_map.js";
@@ -10,6 +11,7 @@ import { Ground } from "./ground.js";
 import { Marks } from "./marks.js";
 import { Obstacles, groundHeight, obstaclesOf } from "./obstacles.js";
 
+const FAR = 30; // times the size of a scene: nobody would look there
 const VIEW = new THREE.Vector3(0.62, -1, 0.5).normalize(); // from where a scene is first seen
 
 /** The picture: camera, ground, obstacles and bodies. It draws when something changed. */
@@ -18,6 +20,7 @@ export class Viewport {
   body = null;
   colouring = "speed";
   changed = true;
+  atRest = false; // a world that failed and flew apart is shown in its rest shape
 
   #world;
   #renderer;
@@ -87,7 +90,8 @@ export class Viewport {
   update(elapsed) {
     const { particles } = this.#world;
     if (!this.body || particles.total !== this.body.particles) return;
-    this.body.positions.set(particles.positions);
+    this.atRest = this.#failed && this.#flewApart(particles.bounds);
+    this.body.positions.set(this.atRest ? this.#world.topology.rest_positions : particles.positions);
     this.#colour(elapsed);
     this.body.moved();
     this.changed = true;
@@ -225,11 +229,20 @@ export class Viewport {
     this.changed = true;
   }
 
+  get #failed() {
+    return WORLD_STATES[this.#world.status?.state] === "failed";
+  }
+
+  #flewApart(bounds) {
+    return !bounds.every((value) => Math.abs(value) < FAR * this.#size + Math.max(...this.#fittedBounds.map(Math.abs)));
+  }
+
   // Steps back when bodies leave what the view was set for. It never comes nearer by itself.
   #follow() {
     if (!this.#follows || this.#flight || !this.#fittedBounds) return;
     const before = this.#fittedBounds;
     const { bounds } = this.#world.particles;
+    if (this.#flewApart(bounds)) return;
     const margin = 0.1 * this.#size;
     if ([0, 1, 2].every((axis) => bounds[axis] > before[axis] - margin && bounds[axis + 3] < before[axis + 3] + margin)) return;
     this.#grown = [0, 1, 2, 3, 4, 5].map((i) => (i < 3 ? Math.min(before[i], bounds[i]) : Math.max(before[i], bounds[i])));
