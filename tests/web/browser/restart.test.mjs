@@ -45,7 +45,7 @@ test("a bridge that was killed is said to be lost, and found again at the same p
   await web.stop("SIGKILL");
   await waitForState(page, "connection lost");
   await keepPicture(page, "lost");
-  web = await programs.web("--port", new URL(web.address).port);
+  web = await programs.web(new URL(web.address).port);
   await waitForState(page, "running");
   await waitForFrames(page, 2);
 });

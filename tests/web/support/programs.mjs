@@ -38,9 +38,9 @@ export class Programs {
     return this.#start("flexcast-server", [scene, ...options], "ready:");
   }
 
-  /** Its `address` is the page's. */
-  async web(...options) {
-    const web = await this.#start("flexcast-web", ["--port", "0", ...options], "ready: ");
+  /** Its `address` is the page's. Port 0: any that is free. */
+  async web(port = 0) {
+    const web = await this.#start("flexcast-web", ["--port", String(port)], "ready: ");
     web.address = /ready: (\S+)/.exec(web.said)[1];
     return web;
   }
