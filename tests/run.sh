@@ -12,7 +12,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source server/setup.sh
 
 install_packages build tests
-(cd tests/interop && npm ci --no-audit --no-fund --loglevel=error)
+for folder in tests/interop tests/web; do
+  (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error)
+done
 
 # The test programs alone, without the reference cases and the lab's studies, which would take too long: tests of this
 # build take the name sanitized.PROGRAM below. GCC warns of uninitialised values in instrumented library code that are
