@@ -21,8 +21,10 @@ export class Notices {
   update(status, link, { recorded, atRest }) {
     const standing = [];
     if (!recorded && (link.state === "lost" || link.state === "silent")) standing.push({ kind: "bad", text: link.text });
-    if (WORLD_STATES[status?.state] === "failed") standing.push({ kind: "bad failure", trouble: status.trouble, recorded, atRest });
-    for (const text of status?.warnings ?? []) standing.push({ kind: "warning", text });
+    const failed = WORLD_STATES[status?.state] === "failed";
+    if (failed) standing.push({ kind: "bad failure", trouble: status.trouble, recorded, atRest });
+    // The reason of a failure has been warned of; its suggestion says more.
+    for (const text of failed ? [] : (status?.warnings ?? [])) standing.push({ kind: "warning", text });
     const key = JSON.stringify(standing, (_, value) => (typeof value === "bigint" ? value.toString() : value));
     if (key === this.#key) return;
     this.#key = key;

@@ -4,10 +4,10 @@ const STEPS = 256;
 
 /** For what begins at zero: from deep indigo over teal to light yellow. */
 export const SEQUENTIAL = sampled([
-  [0.36, 0.13, 288],
-  [0.48, 0.14, 265],
-  [0.6, 0.12, 220],
-  [0.75, 0.14, 165],
+  [0.45, 0.15, 285],
+  [0.54, 0.14, 262],
+  [0.65, 0.12, 222],
+  [0.77, 0.14, 165],
   [0.86, 0.16, 125],
   [0.95, 0.15, 105],
 ]);
