@@ -13,7 +13,7 @@ constexpr double least_span = 1e-9;  // of the values: less are differences that
 constexpr double room = 0.04;        // of the span, at both ends
 const std::string minus = "\xE2\x88\x92", times = "\xC3\x97";
 
-constexpr double unbounded = std::numeric_limits<double>::unbounded();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_shown(double value, bool logarithmic) {

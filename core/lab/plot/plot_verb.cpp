@@ -36,7 +36,7 @@ std::string with_unit(const std::string& text, const std::vector<std::string>& c
   return shared && !unit.empty() ? text + " (" + unit + ")" : text;
 }
 
-std::string join(const std::vector<std::string>& parts) {
+std::string comma_list(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
   return text;
@@ -107,7 +107,7 @@ Result<Plot> make_csv_plot(const PlotOptions& options) {
   }
   PlotPanel panel;
   panel.x = {with_unit(options.x, {options.x}), options.logarithmic.find('x') != std::string::npos};
-  panel.y = {with_unit(join(options.y), options.y), options.logarithmic.find('y') != std::string::npos};
+  panel.y = {with_unit(comma_list(options.y), options.y), options.logarithmic.find('y') != std::string::npos};
   if (options.difference) panel.y.title = "difference of " + panel.y.title;
   for (std::size_t file = 0; file < options.files.size(); ++file) {
     const auto columns = read_csv_columns(options.files[file], names);

@@ -29,7 +29,7 @@ Model make_chain(int links, double stiffness) {
 }
 
 // Link k of n carries the weight of the n - k particles below: l = r (1 + (n -
-// k) m earth_gravity / k_s).
+// k) m g / k_s).
 void expect_hanging(const Simulation& simulation, double tolerance) {
   const Model& model = simulation.model();
   const int links = static_cast<int>(model.springs.size());
