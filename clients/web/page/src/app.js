@@ -33,6 +33,7 @@ export class App {
     const wanted = new URLSearchParams(location.search).get("world") ?? "";
     this.connection = new Connection(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/`);
     this.live = new LiveWorld(this.connection, this.world, wanted);
+    this.connection.open(); // what it answers comes while the rest is made
     this.viewport = new Viewport(get("view"), this.world);
     this.actions = new Actions(this);
     this.screen = new Screen(this, this.actions);
@@ -42,7 +43,6 @@ export class App {
     listenToKeys(this.actions.keys());
     listenToFiles(get("drop-hint"), get("file"), (file) => this.open(file));
     document.addEventListener("visibilitychange", () => this.live.showFrames(!document.hidden));
-    this.connection.open();
     requestAnimationFrame((now) => this.#tick(now));
   }
 
