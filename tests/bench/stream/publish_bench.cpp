@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "idl/wire/memory.h"
 #include "idl/wire/profile.h"
 #include "idl/wire/qos.h"
 #include "tests/bench/stream/ddsperf.h"
@@ -98,6 +99,7 @@ void bench_cost(const Size& size, const Settings& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wire::keep_freed_memory();  // as server and recorder do
   Settings settings;
   std::size_t subscriber = 0;
   int only = 0;
