@@ -4,17 +4,16 @@
 #include <iterator>
 #include <utility>
 
-#include "core/base/checks.h"
-
 namespace flexcast::server {
 
-FrameMailbox::FrameMailbox(std::int64_t particles, const FrameLimits& limits) : limits_(limits) {
-  rings_.emplace_back(particles, limits);
+FrameMailbox::FrameMailbox(std::int64_t particles, const StreamFormat& format, const FrameLimits& limits)
+    : limits_(limits) {
+  rings_.emplace_back(particles, format, limits);
 }
 
-void FrameMailbox::begin_scene(std::int64_t particles) {
+void FrameMailbox::begin_scene(std::int64_t particles, const StreamFormat& format) {
   std::list<FrameRing> ring;
-  ring.emplace_back(particles, limits_);
+  ring.emplace_back(particles, format, limits_);
   const std::scoped_lock lock(mutex_);
   rings_.splice(rings_.end(), ring);
 }
@@ -27,14 +26,7 @@ bool FrameMailbox::push(const FrameHeader& header, const State& state, ParticleF
     if (frame == nullptr) refused_ = true;
   }
   if (frame == nullptr) return false;
-  FLEXCAST_CHECK(state.positions.size() == frame->positions.size() &&
-                 state.velocities.size() == frame->velocities.size());
-  frame->header = header;
-  frame->positions = state.positions;  // sizes agree, so nothing is allocated
-  frame->velocities = state.velocities;
-  FLEXCAST_CHECK(fields != nullptr || !(header.format.stretch || header.format.stress));
-  if (header.format.stretch) fields->calc_stretch(state.positions, frame->stretch);
-  if (header.format.stress) fields->calc_stress(state.positions, frame->stress);
+  capture_.fill(header, state, fields, *frame);
   {
     const std::scoped_lock lock(mutex_);
     rings_.back().commit(frame);

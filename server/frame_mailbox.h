@@ -12,9 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/sim/particle_fields.h"
-#include "core/state/state.h"
 #include "server/convert/clock.h"
+#include "server/convert/frame_capture.h"
 #include "server/convert/notice_types.h"
 #include "server/convert/status_types.h"
 #include "server/frame_ring.h"
@@ -23,13 +22,13 @@ namespace flexcast::server {
 
 class FrameMailbox {
  public:
-  explicit FrameMailbox(std::int64_t particles, const FrameLimits& limits = {});
+  explicit FrameMailbox(std::int64_t particles, const StreamFormat& format = {}, const FrameLimits& limits = {});
 
   // ---- for the simulation thread
 
-  // Frames pushed from now on have so many particles. Those that wait are still taken.
-  void begin_scene(std::int64_t particles);
-  // Copies the state. False: no room, nothing was copied. Allocates nothing, but for stretch and stress: these are
+  // Frames pushed from now on have so many particles in that format. Those that wait are still taken.
+  void begin_scene(std::int64_t particles, const StreamFormat& format);
+  // Captures the state. False: no room, nothing was done. Allocates nothing, but for stretch and stress: these are
   // computed here when the format has them, and `fields` is of the state's model then.
   bool push(const FrameHeader& header, const State& state, ParticleFields* fields = nullptr);
   void post(std::vector<Notice> notices);
@@ -64,6 +63,7 @@ class FrameMailbox {
   std::size_t count_waiting() const;     // under the lock
   const Frame* take_oldest(bool& room);  // `room`: on_room is due
 
+  FrameCapture capture_;  // the simulation thread's
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   const FrameLimits limits_;

@@ -3,18 +3,18 @@
 #include <algorithm>
 
 #include "core/base/checks.h"
+#include "core/sim/frame_size.h"
 
 namespace flexcast::server {
 
-FrameRing::FrameRing(std::int64_t particles, const FrameLimits& limits) {
-  const std::int64_t numbers = 3 * particles;
-  const std::size_t frame_bytes = std::max<std::size_t>(1, 2 * static_cast<std::size_t>(numbers) * sizeof(double));
+FrameRing::FrameRing(std::int64_t particles, const StreamFormat& format, const FrameLimits& limits) {
+  const std::size_t frame_bytes =
+      std::max<std::size_t>(1, calc_particle_bytes(format) * static_cast<std::size_t>(particles));
   const std::size_t count = std::max(limits.least, std::min(limits.frames, limits.bytes / frame_bytes));
   frames_.resize(count);
   queue_.resize(count);
   for (Frame& frame : frames_) {
-    frame.positions.resize(numbers);  // not touched: the system gives memory only to the frames that are used
-    frame.velocities.resize(numbers);
+    reserve_payload(particles, format, frame.payload);  // the system gives memory only to the frames that are used
     free_.push_back(&frame);
   }
 }

@@ -18,7 +18,7 @@ struct FrameLimits {
 
 class FrameRing {
  public:
-  FrameRing(std::int64_t particles, const FrameLimits& limits);
+  FrameRing(std::int64_t particles, const StreamFormat& format, const FrameLimits& limits);
 
   std::size_t capacity() const { return frames_.size(); }
   std::size_t waiting() const { return waiting_; }

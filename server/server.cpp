@@ -85,7 +85,7 @@ Server::Server(Scene scene, const WorldOptions& options, std::unique_ptr<Recorde
                wire::Participant participant, Publications publications)
     : participant_(std::move(participant)),
       world_(std::move(scene), options, run_ids_),
-      mailbox_(world_.simulation().model().particle_count()),
+      mailbox_(world_.simulation().model().particle_count(), world_.stream_format()),
       roll_(std::move(roll)),
       simulation_(world_, commands_, replies_, mailbox_, roll_.get()),
       publications_(std::move(publications)),

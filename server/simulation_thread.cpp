@@ -81,7 +81,7 @@ void SimulationThread::apply_commands(Clock::time_point now) {
 // What a command has done to run, time and scene.
 void SimulationThread::follow(std::uint64_t run, double time) {
   if (world_.topology_revision() != topology_revision_) {
-    mailbox_.begin_scene(world_.simulation().model().particle_count());
+    mailbox_.begin_scene(world_.simulation().model().particle_count(), world_.stream_format());
     topology_revision_ = world_.topology_revision();
     fields_.reset();
   }

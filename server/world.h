@@ -52,6 +52,7 @@ class World {
   std::uint64_t topology_revision() const { return topology_revision_; }  // grows with every scene that is loaded
   const Simulation& simulation() const { return *scene_->simulation; }
   const State& simulation_state() const { return simulation().state(); }
+  const StreamFormat& stream_format() const { return format_; }
   double next_time() const;                                       // s, after the next step
   std::uint64_t newest_frame() const { return next_frame_ - 1; }  // of the run, which begins with one
 

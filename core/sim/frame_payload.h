@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/sim/state_hash.h"
 #include "core/sim/stream_format.h"
 
 namespace flexcast {
@@ -23,12 +23,16 @@ struct FrameSource {
 struct FramePayload {
   std::array<double, 6> bounds = {};  // m, min x, y, z, max x, y, z; zeros without particles
   std::vector<float> positions, velocities, stretch, stress;
-  std::span<const double> positions64, velocities64;  // the source's own
-  std::vector<std::uint16_t> positions16;             // nearest q of p = lo + q / 65535 (hi - lo); 0 where hi = lo
+  std::vector<double> positions64, velocities64;
+  std::vector<std::uint16_t> positions16;  // nearest q of p = lo + q / 65535 (hi - lo); 0 where hi = lo
 };
 
-// The source must stay as long as the payload's views of it are used. Keeps the payload's buffers.
-void fill_payload(const FrameSource& source, const StreamFormat& format, FramePayload& payload);
+// Gets the memory, so that filling the payload allocates none; does not touch it.
+void reserve_payload(std::int64_t particles, const StreamFormat& format, FramePayload& payload);
+
+// Keeps the payload's buffers. `hash`, which has begun, gets positions and velocities on the way.
+void fill_payload(const FrameSource& source, const StreamFormat& format, FramePayload& payload,
+                  StateHash* hash = nullptr);
 
 // What a viewer makes of the payload: m, 3 n; empty without positions.
 VecX decode_positions(const FramePayload& payload);

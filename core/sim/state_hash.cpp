@@ -5,20 +5,37 @@
 #include <xxh_x86dispatch.h>  // takes the widest vectors of the machine; the values are the same
 #endif
 
-#include <memory>
-
 #include "core/base/checks.h"
 
 namespace flexcast {
 
+void StateHash::Free::operator()(XXH3_state_s* state) const {
+  XXH3_freeState(state);
+}
+
+StateHash::StateHash() : state_(XXH3_createState()) {
+  FLEXCAST_CHECK(state_ != nullptr);
+}
+
+void StateHash::begin(std::int64_t step) {
+  XXH3_64bits_reset(state_.get());
+  XXH3_64bits_update(state_.get(), &step, sizeof step);
+}
+
+void StateHash::add(std::span<const double> numbers) {
+  XXH3_64bits_update(state_.get(), numbers.data(), numbers.size_bytes());
+}
+
+std::uint64_t StateHash::value() const {
+  return XXH3_64bits_digest(state_.get());
+}
+
 std::uint64_t calc_state_hash(std::int64_t step, const VecX& positions, const VecX& velocities) {
-  thread_local const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), XXH3_freeState);
-  FLEXCAST_CHECK(hash != nullptr);
-  XXH3_64bits_reset(hash.get());
-  XXH3_64bits_update(hash.get(), &step, sizeof step);
-  XXH3_64bits_update(hash.get(), positions.data(), sizeof(double) * static_cast<std::size_t>(positions.size()));
-  XXH3_64bits_update(hash.get(), velocities.data(), sizeof(double) * static_cast<std::size_t>(velocities.size()));
-  return XXH3_64bits_digest(hash.get());
+  thread_local StateHash hash;
+  hash.begin(step);
+  hash.add({positions.data(), static_cast<std::size_t>(positions.size())});
+  hash.add({velocities.data(), static_cast<std::size_t>(velocities.size())});
+  return hash.value();
 }
 
 }  // namespace flexcast

@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "core/base/math.h"
-#include "core/sim/stream_format.h"
+#include "core/sim/frame_payload.h"
 
 namespace flexcast::server {
 
@@ -18,13 +17,11 @@ struct FrameHeader {
   StreamFormat format;
 };
 
-// Positions and velocities are there whatever the format: the state's hash needs them.
 struct Frame {
   FrameHeader header;
-  VecX positions;   // m, 3 n
-  VecX velocities;  // m/s, 3 n
-  VecX stretch;     // 1, n, when the format has it
-  VecX stress;      // Pa, n, likewise
+  std::uint32_t particles = 0;
+  std::uint64_t state_hash = 0;  // of the doubles, whatever the format
+  FramePayload payload;          // what the format names
 };
 
 }  // namespace flexcast::server

@@ -4,7 +4,6 @@
 
 #include "core/sim/chunks.h"
 #include "core/sim/frame_size.h"
-#include "core/sim/state_hash.h"
 #include "idl/wire/fill.h"
 
 namespace flexcast::server {
@@ -25,31 +24,30 @@ FrameMessage::FrameMessage(std::string_view world) {
 
 void FrameMessage::assign(const Frame& frame) {
   const FrameHeader& header = frame.header;
-  const auto particles = static_cast<std::size_t>(frame.positions.size()) / 3;
   message_->run_id = header.run_id;
   message_->frame = header.frame;
   message_->step = static_cast<std::uint64_t>(header.step);
   message_->time = header.time;
   message_->parameter_revision = header.parameter_revision;
   message_->topology_revision = header.topology_revision;
-  message_->state_hash = calc_state_hash(header.step, frame.positions, frame.velocities);
-  message_->chunks = calc_frame_size(static_cast<std::int64_t>(particles), header.format).chunks;
-  message_->total = static_cast<std::uint32_t>(particles);
-  fill_payload({frame.positions, frame.velocities, frame.stretch, frame.stress}, header.format, payload_);
-  std::copy(payload_.bounds.begin(), payload_.bounds.end(), message_->bounds);
+  message_->state_hash = frame.state_hash;
+  message_->chunks = calc_frame_size(frame.particles, header.format).chunks;
+  message_->total = frame.particles;
+  payload_ = &frame.payload;
+  std::copy(payload_->bounds.begin(), payload_->bounds.end(), message_->bounds);
 }
 
 const flexcast_ParticleFrame& FrameMessage::chunk(std::uint32_t chunk) {
   const ChunkRun run = chunk_run(message_->total, chunk, message_->chunks);
   message_->chunk = chunk;
   message_->first = static_cast<std::uint32_t>(run.first);
-  view_run(message_->positions, payload_.positions, run, 3);
-  view_run(message_->velocities, payload_.velocities, run, 3);
-  view_run(message_->positions64, payload_.positions64, run, 3);
-  view_run(message_->velocities64, payload_.velocities64, run, 3);
-  view_run(message_->positions16, payload_.positions16, run, 3);
-  view_run(message_->stretch, payload_.stretch, run, 1);
-  view_run(message_->stress, payload_.stress, run, 1);
+  view_run(message_->positions, payload_->positions, run, 3);
+  view_run(message_->velocities, payload_->velocities, run, 3);
+  view_run(message_->positions64, payload_->positions64, run, 3);
+  view_run(message_->velocities64, payload_->velocities64, run, 3);
+  view_run(message_->positions16, payload_->positions16, run, 3);
+  view_run(message_->stretch, payload_->stretch, run, 1);
+  view_run(message_->stress, payload_->stress, run, 1);
   return *message_;
 }
 

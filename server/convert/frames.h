@@ -3,18 +3,17 @@
 
 #include <string_view>
 
-#include "core/sim/frame_payload.h"
 #include "idl/wire/owned.h"
 #include "server/convert/frame_types.h"
 
 namespace flexcast::server {
 
-// One message, filled anew for each chunk of each frame. Keeps its buffers.
+// One message, filled anew for each chunk of each frame.
 class FrameMessage {
  public:
   explicit FrameMessage(std::string_view world);
 
-  // Converts the frame (which must stay as long as its chunks are asked for) and calculates its hash and bounds.
+  // The frame must stay as long as its chunks are asked for: they show its numbers.
   void assign(const Frame& frame);
 
   std::uint32_t chunks() const { return message_->chunks; }
@@ -23,7 +22,7 @@ class FrameMessage {
 
  private:
   wire::Owned<flexcast_ParticleFrame> message_;
-  FramePayload payload_;
+  const FramePayload* payload_ = nullptr;  // the frame's
 };
 
 }  // namespace flexcast::server

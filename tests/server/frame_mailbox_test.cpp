@@ -44,6 +44,10 @@ FrameHeader make_header(std::uint64_t frame) {
   return header;
 }
 
+std::vector<float> floats_of(double value) {
+  return std::vector<float>(3 * particles, static_cast<float>(value));
+}
+
 TEST(FrameMailbox, HandsFramesOnInOrderAndUnchanged) {
   FrameMailbox mailbox(particles);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(mailbox.push(make_header(i), make_state(i)));
@@ -51,8 +55,8 @@ TEST(FrameMailbox, HandsFramesOnInOrderAndUnchanged) {
     const Frame* frame = mailbox.take();
     ASSERT_NE(frame, nullptr);
     EXPECT_EQ(frame->header.frame, static_cast<std::uint64_t>(i));
-    EXPECT_EQ(frame->positions, make_state(i).positions);
-    EXPECT_EQ(frame->velocities, make_state(i).velocities);
+    EXPECT_EQ(frame->payload.positions, floats_of(i));
+    EXPECT_EQ(frame->state_hash, calc_state_hash(0, make_state(i).positions, make_state(i).velocities));
   }
   EXPECT_EQ(mailbox.take(), nullptr);
 }
@@ -73,14 +77,14 @@ TEST(FrameMailbox, ComputesTheFieldsOfItsFramesWhenTheFormatHasThem) {
   ASSERT_TRUE(mailbox.push(header, state, &fields));
   ASSERT_TRUE(mailbox.push(make_header(1), state, nullptr));
   const Frame* frame = mailbox.take();
-  ASSERT_EQ(frame->stretch.size(), particles);
-  EXPECT_NEAR(frame->stretch[0], 1.0, 1e-15);
-  EXPECT_EQ(frame->stretch[2], 0.0);
-  EXPECT_EQ(frame->stress.size(), 0);
+  ASSERT_EQ(frame->payload.stretch.size(), static_cast<std::size_t>(particles));
+  EXPECT_EQ(frame->payload.stretch[0], 1.0f);
+  EXPECT_EQ(frame->payload.stretch[2], 0.0f);
+  EXPECT_TRUE(frame->payload.stress.empty());
 }
 
 TEST(FrameMailbox, RefusesWhenFullAndTheNumbersShowTheGap) {
-  FrameMailbox mailbox(particles, {.frames = 4});
+  FrameMailbox mailbox(particles, {}, {.frames = 4});
   ASSERT_EQ(mailbox.capacity(), 4u);
   std::uint64_t number = 0;
   for (; number < 4; ++number) EXPECT_TRUE(mailbox.push(make_header(number), make_state(0)));
@@ -94,7 +98,7 @@ TEST(FrameMailbox, RefusesWhenFullAndTheNumbersShowTheGap) {
 }
 
 TEST(FrameMailbox, CallsOnceWhenHalfOfItIsFreeAgain) {
-  FrameMailbox mailbox(particles, {.frames = 8});
+  FrameMailbox mailbox(particles, {}, {.frames = 8});
   int calls = 0;
   mailbox.on_room([&] { ++calls; });
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(mailbox.push(make_header(i), make_state(0)));
@@ -110,24 +114,26 @@ TEST(FrameMailbox, CallsOnceWhenHalfOfItIsFreeAgain) {
 }
 
 TEST(FrameMailbox, TheTakenFrameStaysUntilTheNextIsTaken) {
-  FrameMailbox mailbox(particles, {.frames = 4});
+  FrameMailbox mailbox(particles, {}, {.frames = 4});
   ASSERT_TRUE(mailbox.push(make_header(0), make_state(7)));
   const Frame* taken = mailbox.take();
   while (mailbox.push(make_header(1), make_state(8))) {
   }
   EXPECT_EQ(taken->header.frame, 0u);
-  EXPECT_EQ(taken->positions, make_state(7).positions);
+  EXPECT_EQ(taken->payload.positions, floats_of(7));
 }
 
 TEST(FrameMailbox, IsCappedByBytesButHoldsFourFramesInAnyCase) {
-  constexpr std::size_t frame_bytes = 2 * 3 * particles * sizeof(double);
-  EXPECT_EQ(FrameMailbox(particles, {.frames = 64, .bytes = 10 * frame_bytes}).capacity(), 10u);
-  EXPECT_EQ(FrameMailbox(particles, {.frames = 64, .bytes = 1}).capacity(), 4u);
+  constexpr std::size_t frame_bytes = 3 * particles * sizeof(float);
+  constexpr StreamFormat larger{.velocities = true, .precision = StreamPrecision::float64};
+  EXPECT_EQ(FrameMailbox(particles, {}, {.frames = 64, .bytes = 10 * frame_bytes}).capacity(), 10u);
+  EXPECT_EQ(FrameMailbox(particles, {}, {.frames = 64, .bytes = 1}).capacity(), 4u);
+  EXPECT_EQ(FrameMailbox(particles, larger, {.frames = 64, .bytes = 40 * frame_bytes}).capacity(), 10u);
   EXPECT_EQ(FrameMailbox(particles).capacity(), 64u);
 }
 
 TEST(FrameMailbox, AllocatesNothingForFrames) {
-  FrameMailbox mailbox(particles, {.frames = 4});
+  FrameMailbox mailbox(particles, {}, {.frames = 4});
   const State state = make_state(1);
   const std::size_t before = allocations;
   for (int i = 0; i < 1000; ++i) {
@@ -139,36 +145,36 @@ TEST(FrameMailbox, AllocatesNothingForFrames) {
 
 TEST(FrameMailbox, AReaderThatKeepsUpTouchesTwoFramesOnly) {
   FrameMailbox mailbox(particles);
-  std::set<const double*> memories;
+  std::set<const float*> memories;
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(mailbox.push(make_header(i), make_state(i)));
-    memories.insert(mailbox.take()->positions.data());
+    memories.insert(mailbox.take()->payload.positions.data());
   }
   EXPECT_EQ(memories.size(), 2u);
 }
 
 TEST(FrameMailbox, FramesOfAnotherSceneFollowThoseThatWaitAndTheTakenOneStays) {
-  FrameMailbox mailbox(particles, {.frames = 4});
+  FrameMailbox mailbox(particles, {}, {.frames = 4});
   ASSERT_TRUE(mailbox.push(make_header(0), make_state(7)));
   ASSERT_TRUE(mailbox.push(make_header(1), make_state(8)));
   const Frame* taken = mailbox.take();
-  mailbox.begin_scene(2 * particles);
+  mailbox.begin_scene(2 * particles, {});
   State state;
   state.positions = VecX::Constant(6 * particles, 9.0);
   state.velocities = state.positions;
   ASSERT_TRUE(mailbox.push(make_header(2), state));
   EXPECT_EQ(mailbox.waiting(), 2u);
-  EXPECT_EQ(taken->positions, make_state(7).positions);
-  EXPECT_EQ(mailbox.take()->positions, make_state(8).positions);
+  EXPECT_EQ(taken->payload.positions, floats_of(7));
+  EXPECT_EQ(mailbox.take()->payload.positions, floats_of(8));
   taken = mailbox.take();
   EXPECT_EQ(taken->header.frame, 2u);
-  EXPECT_EQ(taken->positions, state.positions);
+  EXPECT_EQ(taken->payload.positions, std::vector<float>(6 * particles, 9.0f));
   EXPECT_EQ(mailbox.take(), nullptr);
   EXPECT_EQ(mailbox.capacity(), 4u);
 }
 
 TEST(FrameMailbox, NoticesAreNeverRefusedAndOfStatusesTheNewestCounts) {
-  FrameMailbox mailbox(particles, {.frames = 4});
+  FrameMailbox mailbox(particles, {}, {.frames = 4});
   for (std::uint64_t i = 0; i < 1000; ++i) {
     RunStarted run;
     run.run_id = i;
@@ -192,7 +198,7 @@ TEST(FrameMailbox, AStatusAnswersTheRequest) {
 }
 
 TEST(FrameMailbox, TwoThreadsLoseNothingThatWasTakenIn) {
-  FrameMailbox mailbox(particles, {.frames = 8});
+  FrameMailbox mailbox(particles, {}, {.frames = 8});
   constexpr std::uint64_t frames = 20'000;
   std::uint64_t taken_in = 0;
   std::atomic<bool> done = false;
@@ -217,8 +223,8 @@ TEST(FrameMailbox, TwoThreadsLoseNothingThatWasTakenIn) {
     }
     EXPECT_TRUE(received == 0 || frame->header.frame > last);
     last = frame->header.frame;
-    EXPECT_EQ(frame->positions[0], static_cast<double>(last));
-    EXPECT_EQ(frame->positions[3 * particles - 1], static_cast<double>(last));
+    EXPECT_EQ(frame->payload.positions[0], static_cast<float>(last));
+    EXPECT_EQ(frame->payload.positions[3 * particles - 1], static_cast<float>(last));
     ++received;
   }
   producer.join();

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 struct LockstepBench {
   explicit LockstepBench(WorldOptions options = {.rate = 0.0}, std::size_t mailbox_frames = 64)
       : world(load(rope_scene()), options, run_ids),
-        mailbox(world.simulation().model().particle_count(), {.frames = mailbox_frames}),
+        mailbox(world.simulation().model().particle_count(), {}, {.frames = mailbox_frames}),
         thread(world, commands, replies, mailbox, &roll) {}
 
   void turn(int times) {

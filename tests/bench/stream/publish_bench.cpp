@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "idl/wire/memory.h"
 #include "idl/wire/profile.h"
 #include "idl/wire/qos.h"
 #include "tests/bench/stream/ddsperf.h"
@@ -98,10 +99,11 @@ void bench_cost(const Size& size, const Settings& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wire::keep_freed_memory();  // as server and recorder do
   Settings settings;
   std::size_t subscriber = 0;
   int only = 0;
-  bool no_ddsperf = false;
+  bool no_ddsperf = false, by_listener = false;
   CLI::App app("Times the server's way to publish against Cyclone DDS alone.", "flexcast-publish-bench");
   app.footer(example);
   app.add_option("--seconds", settings.seconds, "of each measurement; default 3")->check(CLI::Range(0.1, 3600.0));
@@ -110,6 +112,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", only, "only frames of so many KB: 24, 240 or 2400");
   app.add_flag("--no-ddsperf", no_ddsperf, "without the comparison with ddsperf");
   app.add_option("--subscriber", subscriber, "be the reader, of frames of so many bytes")->group("");
+  app.add_flag("--listener", by_listener, "as that reader: take in Cyclone's receive thread")->group("");
   app.set_version_flag("--version", std::string("flexcast-publish-bench ") + FLEXCAST_VERSION);
   try {
     app.parse(argc, argv);
@@ -118,7 +121,9 @@ int main(int argc, char** argv) {
   }
   // For all processes, ddsperf among them.
   setenv("CYCLONEDDS_URI", wire::resolve_profile("loopback").value().config.c_str(), 1);
-  if (subscriber > 0) return run_subscriber(settings.domain, subscriber);
+  if (subscriber > 0) {
+    return run_subscriber(settings.domain, subscriber, by_listener ? TakeBy::listener : TakeBy::wait_set);
+  }
   spdlog::set_level(spdlog::level::warn);
   settings.ddsperf = !no_ddsperf;
   for (const Size& size : {Size{24, 500.0}, Size{240, 200.0}, Size{2400, 20.0}}) {

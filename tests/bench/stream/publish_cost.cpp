@@ -3,6 +3,7 @@
 #include <ctime>
 #include <thread>
 
+#include "server/convert/frame_capture.h"
 #include "server/publications.h"
 #include "tests/bench/stream/bare_feed.h"
 #include "tests/bench/stream/child.h"
@@ -36,17 +37,21 @@ Cost measure_publish_cost(int domain, std::int64_t particles, double seconds) {
   const auto participant = join(domain);
   auto publications = make_publications(participant, particles);
   BareFeed bare(participant, particles);
+  State state;
+  state.positions = VecX::Random(3 * particles);
+  state.velocities = VecX::Random(3 * particles);
+  server::FrameCapture capture;
+  server::FrameHeader header;
   server::Frame frame;
-  frame.positions = VecX::Random(3 * particles);
-  frame.velocities = VecX::Random(3 * particles);
   Child subscriber("/proc/self/exe",
                    {"--subscriber", std::to_string(12 * particles), "--domain", std::to_string(domain)});
   subscriber.hear();
   std::vector<double> ours, bares;
   for (const double end = monotonic_seconds() + seconds; monotonic_seconds() < end;) {
     ours.push_back(time_block([&] {
+      capture.fill(header, state, nullptr, frame);
       publications.publish(frame);
-      ++frame.header.frame;
+      ++header.frame;
     }));
     bares.push_back(time_block([&] { bare.push(); }));
   }

@@ -1,4 +1,4 @@
-// What publishing a frame costs the publisher's thread, in CPU time: other programs of the machine disturb it little.
+// What publishing a frame costs in CPU time, in whichever thread: other programs of the machine disturb it little.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace flexcast::bench {
 
 struct Cost {
-  double ours = 0.0, bare = 0.0;  // s a frame: with hash, bounds and conversion; writing what is ready
+  double ours = 0.0, bare = 0.0;  // s a frame: capturing the state and writing; writing what is ready
 };
 
 // Blocks of frames in turns, to one subscriber.

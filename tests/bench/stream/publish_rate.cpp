@@ -12,7 +12,7 @@ double measure_publish_rate(int domain, std::int64_t particles, double seconds) 
   const auto participant = join(domain);
   FrameFeed feed(participant, particles);
   Child subscriber("/proc/self/exe",
-                   {"--subscriber", std::to_string(12 * particles), "--domain", std::to_string(domain)});
+                   {"--subscriber", std::to_string(12 * particles), "--domain", std::to_string(domain), "--listener"});
   subscriber.hear();
   feed.push_for(1.0);
   subscriber.tell("clear");

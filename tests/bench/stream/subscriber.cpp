@@ -1,11 +1,13 @@
 #include "tests/bench/stream/subscriber.h"
 
+#include <dds/dds.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -24,19 +26,28 @@ using namespace std::chrono_literals;
 
 class Subscriber {
  public:
-  // `reader` is attached to `wait_set`.
-  Subscriber(const wire::Reader<flexcast_ParticleFrame>& reader, const wire::WaitSet& wait_set)
-      : reader_(reader), wait_set_(wait_set) {}
+  explicit Subscriber(const wire::Reader<flexcast_ParticleFrame>& reader) : reader_(reader) {}
 
-  void run() {
-    bool announced = false;
+  // The reader is attached to `wait_set`.
+  void run(const wire::WaitSet& wait_set) {
     while (obey()) {
-      if (!announced && reader_.matched().current > 0) say("matched");
-      announced |= reader_.matched().current > 0;
+      announce();
       if (slow_) std::this_thread::sleep_for(100ms);
-      if (!wait_set_.wait(10ms)) continue;
+      if (!wait_set.wait(10ms)) continue;
       slow_ ? take_one() : take();
     }
+  }
+
+  void run_by_listener() {
+    dds_listener_t* listener = dds_create_listener(this);
+    dds_lset_data_available(listener, [](dds_entity_t, void* self) { static_cast<Subscriber*>(self)->take(); });
+    dds_set_listener(reader_.handle(), listener);
+    dds_delete_listener(listener);
+    while (obey()) {
+      announce();
+      std::this_thread::sleep_for(1ms);
+    }
+    dds_set_listener(reader_.handle(), nullptr);
   }
 
  private:
@@ -45,9 +56,16 @@ class Subscriber {
     std::fflush(stdout);
   }
 
+  void announce() {
+    if (announced_ || reader_.matched().current == 0) return;
+    announced_ = true;
+    say("matched");
+  }
+
   void take() {
     const auto samples = reader_.take();
     if (!samples) return;
+    const std::scoped_lock lock(mutex_);
     for (const auto [frame, info] : samples.value()) {
       if (info.valid) add(frame);
     }
@@ -69,6 +87,7 @@ class Subscriber {
     do {
       std::string line;
       if (!std::getline(std::cin, line)) return false;
+      const std::scoped_lock lock(mutex_);
       if (line == "clear") tallies_.clear();
       if (line == "slow" || line == "fast") slow_ = line == "slow";
       if (line == "report") report();
@@ -88,14 +107,15 @@ class Subscriber {
   }
 
   const wire::Reader<flexcast_ParticleFrame>& reader_;
-  const wire::WaitSet& wait_set_;
+  std::mutex mutex_;
   std::map<std::string, FrameTally> tallies_;
+  bool announced_ = false;
   bool slow_ = false;
 };
 
 }  // namespace
 
-int run_subscriber(int domain, std::size_t frame_bytes) {
+int run_subscriber(int domain, std::size_t frame_bytes, TakeBy take_by) {
   std::ios::sync_with_stdio(false);  // lines that came together are all in cin's buffer then
   const auto participant = wire::Participant::create({.domain = domain});
   if (!participant) return 1;
@@ -103,9 +123,11 @@ int run_subscriber(int domain, std::size_t frame_bytes) {
   auto reader =
       wire::Reader<flexcast_ParticleFrame>::create(participant.value(), wire::frames_recorder_qos(frame_bytes, chunks));
   if (!reader) return 1;
+  Subscriber subscriber(reader.value());
+  if (take_by == TakeBy::listener) return subscriber.run_by_listener(), 0;
   auto wait_set = wire::WaitSet::create(participant.value());
   if (!wait_set || !wait_set.value().attach_data(reader.value())) return 1;
-  Subscriber(reader.value(), wait_set.value()).run();
+  subscriber.run(wait_set.value());
   return 0;
 }
 

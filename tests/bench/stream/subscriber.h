@@ -10,7 +10,11 @@
 
 namespace flexcast::bench {
 
-// Prints "matched" once it has found a writer of frames. Returns the exit code.
-int run_subscriber(int domain, std::size_t frame_bytes);
+// Who takes the samples: a thread that waits in a wait set, as in our clients, or Cyclone's receive thread itself, by a
+// listener, as in ddsperf.
+enum class TakeBy { wait_set, listener };
+
+// Prints "matched" once it has found a writer of frames. Returns the exit code. "slow" is for wait sets.
+int run_subscriber(int domain, std::size_t frame_bytes, TakeBy take_by = TakeBy::wait_set);
 
 }  // namespace flexcast::bench

@@ -15,6 +15,7 @@
 #include "clients/verify/verify.h"
 #include "idl/wire/topics.h"
 #include "server/convert/events.h"
+#include "server/convert/frame_capture.h"
 #include "server/convert/frames.h"
 #include "server/convert/scene_info.h"
 #include "tests/server/worlds.h"
@@ -133,9 +134,8 @@ class Session {
   }
 
   void add_frame(const server::FrameHeader& header) {
-    const State& state = world_->simulation_state();
-    const server::Frame frame{header, state.positions, state.velocities, {}, {}};
-    message_.assign(frame);
+    capture_.fill(header, world_->simulation_state(), nullptr, frame_);
+    message_.assign(frame_);
     for (std::uint32_t chunk = 0; chunk < message_.chunks(); ++chunk) {
       frames.push_back(flexcast::test::encode(message_.chunk(chunk)));
     }
@@ -154,6 +154,8 @@ class Session {
   server::RunIds run_ids_;
   std::optional<World> world_;
   server::FrameHeader newest_;
+  server::FrameCapture capture_;
+  server::Frame frame_;
   server::FrameMessage message_{"world"};
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -114,6 +115,66 @@ TEST(FramePayload, ABufferUsedAgainShowsTheNewFrameAlone) {
   fill_payload({fewer, fewer, none, none}, {.precision = quantized16}, payload);
   EXPECT_EQ(payload.positions16.size(), 6u);
   EXPECT_TRUE(payload.positions.empty() && payload.velocities.empty() && payload.stretch.empty());
+}
+
+// Blocks of any number, whole ones and a rest, and none at all.
+TEST(FramePayload, TheHashOnTheWayIsTheStatesAndTheNumbersAreTheSameWithoutIt) {
+  for (const std::int64_t particles : {0, 1, 2, 679, 680, 681, 1360, 2000, 10'001}) {
+    const VecX positions = make_random(3 * particles), velocities = 2.0 * positions;
+    for (const StreamPrecision precision : {float32, float64, quantized16}) {
+      for (const bool moves : {false, true}) {
+        const StreamFormat format{.velocities = moves, .precision = precision};
+        StateHash hash;
+        hash.begin(42);
+        FramePayload hashed;
+        fill_payload({positions, velocities, none, none}, format, hashed, &hash);
+        EXPECT_EQ(hash.value(), calc_state_hash(42, positions, velocities)) << particles;
+        const FramePayload payload = make_payload(positions, velocities, format);
+        EXPECT_EQ(hashed.bounds, payload.bounds);
+        EXPECT_EQ(hashed.positions, payload.positions);
+        EXPECT_EQ(hashed.positions64, payload.positions64);
+        EXPECT_EQ(hashed.positions16, payload.positions16);
+        EXPECT_EQ(hashed.velocities, payload.velocities);
+        EXPECT_EQ(hashed.velocities64, payload.velocities64);
+      }
+    }
+  }
+}
+
+TEST(FramePayload, EveryNumberOfALargeFrameIsItsOwn) {
+  const VecX positions = make_random(3 * 5000);
+  const FramePayload floats = make_payload(positions, positions, {.velocities = true});
+  const FramePayload doubles = make_payload(positions, positions, {.velocities = true, .precision = float64});
+  ASSERT_EQ(floats.positions.size(), 15'000u);
+  for (Eigen::Index i = 0; i < positions.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    ASSERT_EQ(floats.positions[k], static_cast<float>(positions[i]));
+    ASSERT_EQ(floats.velocities[k], static_cast<float>(positions[i]));
+    ASSERT_EQ(doubles.positions64[k], positions[i]);
+    ASSERT_EQ(doubles.velocities64[k], positions[i]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto along = Eigen::Map<const VecX, 0, Eigen::InnerStride<3>>(positions.data() + axis, 5000);
+    EXPECT_EQ(floats.bounds[static_cast<std::size_t>(axis)], along.minCoeff());
+    EXPECT_EQ(floats.bounds[static_cast<std::size_t>(axis + 3)], along.maxCoeff());
+  }
+}
+
+TEST(FramePayload, MemoryThatWasReservedIsNotMoved) {
+  const VecX positions = make_random(3 * 1000);
+  for (const StreamPrecision precision : {float32, float64, quantized16}) {
+    const StreamFormat format{.velocities = true, .precision = precision};
+    FramePayload payload;
+    reserve_payload(1000, format, payload);
+    const std::array<const void*, 5> before = {payload.positions.data(), payload.positions64.data(),
+                                               payload.positions16.data(), payload.velocities.data(),
+                                               payload.velocities64.data()};
+    fill_payload({positions, positions, none, none}, format, payload);
+    const std::array<const void*, 5> after = {payload.positions.data(), payload.positions64.data(),
+                                              payload.positions16.data(), payload.velocities.data(),
+                                              payload.velocities64.data()};
+    EXPECT_EQ(before, after);
+  }
 }
 
 TEST(StreamFormat, IsWhatTheSceneNames) {

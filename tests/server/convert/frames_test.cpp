@@ -6,27 +6,41 @@
 
 #include "core/sim/chunks.h"
 #include "core/sim/frame_size.h"
-#include "core/sim/state_hash.h"
 #include "idl/wire/fill.h"
 
 namespace flexcast::server {
 namespace {
 
-Frame make_frame(std::int64_t particles, const StreamFormat& format) {
+// A frame, and the numbers it was made of.
+struct Shot {
+  VecX positions, velocities, stretch, stress;
+  Frame frame;
+};
+
+void fill(Shot& shot) {
+  shot.frame.particles = static_cast<std::uint32_t>(shot.positions.size() / 3);
+  fill_payload({shot.positions, shot.velocities, shot.stretch, shot.stress}, shot.frame.header.format,
+               shot.frame.payload);
+}
+
+Shot make_shot(std::int64_t particles, const StreamFormat& format) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-10.0, 10.0);
-  Frame frame;
-  frame.header.run_id = 11;
-  frame.header.frame = 12;
-  frame.header.step = 13;
-  frame.header.time = 0.013;
-  frame.header.parameter_revision = 14;
-  frame.header.format = format;
-  frame.positions = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
-  frame.velocities = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
-  if (format.stretch) frame.stretch = VecX::NullaryExpr(particles, [&] { return uniform(random); });
-  if (format.stress) frame.stress = VecX::NullaryExpr(particles, [&] { return 1e5 * uniform(random); });
-  return frame;
+  Shot shot;
+  FrameHeader& header = shot.frame.header;
+  header.run_id = 11;
+  header.frame = 12;
+  header.step = 13;
+  header.time = 0.013;
+  header.parameter_revision = 14;
+  header.format = format;
+  shot.frame.state_hash = 15;
+  shot.positions = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
+  shot.velocities = VecX::NullaryExpr(3 * particles, [&] { return uniform(random); });
+  shot.stretch = VecX::NullaryExpr(particles, [&] { return uniform(random); });
+  shot.stress = VecX::NullaryExpr(particles, [&] { return 1e5 * uniform(random); });
+  fill(shot);
+  return shot;
 }
 
 constexpr StreamFormat all_floats{.velocities = true};
@@ -34,10 +48,10 @@ constexpr StreamFormat all_doubles{.velocities = true, .precision = StreamPrecis
 constexpr StreamFormat everything_small{
     .velocities = true, .precision = StreamPrecision::quantized16, .stretch = true, .stress = true};
 
-TEST(FrameMessage, CarriesTheHeaderAndTheHashOfTheDoubles) {
-  const Frame frame = make_frame(100, {});
+TEST(FrameMessage, CarriesTheHeaderAndTheHash) {
+  const Shot shot = make_shot(100, {});
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   ASSERT_EQ(message.chunks(), 1u);
   const auto& sample = message.chunk(0);
   EXPECT_EQ(wire::text(sample.world), "rope");
@@ -48,40 +62,40 @@ TEST(FrameMessage, CarriesTheHeaderAndTheHashOfTheDoubles) {
   EXPECT_EQ(sample.parameter_revision, 14u);
   EXPECT_EQ(sample.topology_revision, 1u);
   EXPECT_EQ(sample.total, 100u);
-  EXPECT_EQ(sample.state_hash, calc_state_hash(13, frame.positions, frame.velocities));
+  EXPECT_EQ(sample.state_hash, 15u);
 }
 
 TEST(FrameMessage, FloatsAreTheDoublesRounded) {
-  const Frame frame = make_frame(100, all_floats);
+  const Shot shot = make_shot(100, all_floats);
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   const auto& sample = message.chunk(0);
   ASSERT_EQ(sample.positions._length, 300u);
   ASSERT_EQ(sample.velocities._length, 300u);
   for (int i = 0; i < 300; ++i) {
-    EXPECT_EQ(sample.positions._buffer[i], static_cast<float>(frame.positions[i]));
-    EXPECT_EQ(sample.velocities._buffer[i], static_cast<float>(frame.velocities[i]));
+    EXPECT_EQ(sample.positions._buffer[i], static_cast<float>(shot.positions[i]));
+    EXPECT_EQ(sample.velocities._buffer[i], static_cast<float>(shot.velocities[i]));
   }
 }
 
 TEST(FrameMessage, DoublesAreTheStatesOwn) {
-  const Frame frame = make_frame(100, all_doubles);
+  const Shot shot = make_shot(100, all_doubles);
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   const auto& sample = message.chunk(0);
   EXPECT_EQ(sample.positions._length + sample.velocities._length, 0u);
   ASSERT_EQ(sample.positions64._length, 300u);
   ASSERT_EQ(sample.velocities64._length, 300u);
   for (int i = 0; i < 300; ++i) {
-    EXPECT_EQ(sample.positions64._buffer[i], frame.positions[i]);
-    EXPECT_EQ(sample.velocities64._buffer[i], frame.velocities[i]);
+    EXPECT_EQ(sample.positions64._buffer[i], shot.positions[i]);
+    EXPECT_EQ(sample.velocities64._buffer[i], shot.velocities[i]);
   }
 }
 
 TEST(FrameMessage, SendsNoFieldThatWasNotAskedFor) {
-  const Frame frame = make_frame(10, {});
+  const Shot shot = make_shot(10, {});
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   const auto& sample = message.chunk(0);
   EXPECT_EQ(sample.positions._length, 30u);
   EXPECT_EQ(sample.velocities._length, 0u);
@@ -90,18 +104,19 @@ TEST(FrameMessage, SendsNoFieldThatWasNotAskedFor) {
 }
 
 TEST(FrameMessage, BoundsAreThoseOfAllParticles) {
-  Frame frame = make_frame(1000, {});
-  block3(frame.positions, 3) = Vec3(-20, 0, 0);
-  block3(frame.positions, 999) = Vec3(0, 30, -40);
+  Shot shot = make_shot(1000, {});
+  block3(shot.positions, 3) = Vec3(-20, 0, 0);
+  block3(shot.positions, 999) = Vec3(0, 30, -40);
+  fill(shot);
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   const auto& bounds = message.chunk(0).bounds;
   for (int axis = 0; axis < 3; ++axis) {
     double low = 1e9;
     double high = -1e9;
     for (int i = 0; i < 1000; ++i) {
-      low = std::min(low, frame.positions[3 * i + axis]);
-      high = std::max(high, frame.positions[3 * i + axis]);
+      low = std::min(low, shot.positions[3 * i + axis]);
+      high = std::max(high, shot.positions[3 * i + axis]);
     }
     EXPECT_EQ(bounds[axis], low);
     EXPECT_EQ(bounds[axis + 3], high);
@@ -110,9 +125,9 @@ TEST(FrameMessage, BoundsAreThoseOfAllParticles) {
 
 TEST(FrameMessage, ChunksCoverEveryParticleExactlyOnceAndStayBelowOneMebibyte) {
   constexpr std::uint32_t particles = 300'001;
-  const Frame frame = make_frame(particles, all_floats);
+  const Shot shot = make_shot(particles, all_floats);
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   EXPECT_EQ(message.chunks(), 7u);  // 7.2 MB
   std::uint32_t next = 0;
   for (std::uint32_t chunk = 0; chunk < message.chunks(); ++chunk) {
@@ -124,8 +139,8 @@ TEST(FrameMessage, ChunksCoverEveryParticleExactlyOnceAndStayBelowOneMebibyte) {
     EXPECT_LE((sample.positions._length + sample.velocities._length) * sizeof(float), chunk_bytes - chunk_overhead);
     const std::uint32_t count = sample.positions._length / 3;
     for (std::uint32_t i = 0; i < 3 * count; i += 997) {
-      ASSERT_EQ(sample.positions._buffer[i], static_cast<float>(frame.positions[3 * next + i]));
-      ASSERT_EQ(sample.velocities._buffer[i], static_cast<float>(frame.velocities[3 * next + i]));
+      ASSERT_EQ(sample.positions._buffer[i], static_cast<float>(shot.positions[3 * next + i]));
+      ASSERT_EQ(sample.velocities._buffer[i], static_cast<float>(shot.velocities[3 * next + i]));
     }
     next += count;
   }
@@ -135,9 +150,9 @@ TEST(FrameMessage, ChunksCoverEveryParticleExactlyOnceAndStayBelowOneMebibyte) {
 // What a reader sees of a quantized frame with every field, chunk by chunk.
 TEST(FrameMessage, QuantizedChunksShowTheirParticlesOfEveryField) {
   constexpr std::uint32_t particles = 100'001;
-  const Frame frame = make_frame(particles, everything_small);
+  const Shot shot = make_shot(particles, everything_small);
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   EXPECT_EQ(message.chunks(), 3u);  // 26 bytes a particle
   std::uint32_t next = 0;
   for (std::uint32_t chunk = 0; chunk < message.chunks(); ++chunk) {
@@ -153,10 +168,10 @@ TEST(FrameMessage, QuantizedChunksShowTheirParticlesOfEveryField) {
       const auto particle = static_cast<Eigen::Index>(next + i);
       const double low = sample.bounds[1], extent = sample.bounds[4] - low;
       const double y = low + extent * (sample.positions16._buffer[3 * i + 1] / 65535.0);
-      ASSERT_NEAR(y, frame.positions[3 * particle + 1], 0.500001 * extent / 65535.0);
-      ASSERT_EQ(sample.velocities._buffer[3 * i], static_cast<float>(frame.velocities[3 * particle]));
-      ASSERT_EQ(sample.stretch._buffer[i], static_cast<float>(frame.stretch[particle]));
-      ASSERT_EQ(sample.stress._buffer[i], static_cast<float>(frame.stress[particle]));
+      ASSERT_NEAR(y, shot.positions[3 * particle + 1], 0.500001 * extent / 65535.0);
+      ASSERT_EQ(sample.velocities._buffer[3 * i], static_cast<float>(shot.velocities[3 * particle]));
+      ASSERT_EQ(sample.stretch._buffer[i], static_cast<float>(shot.stretch[particle]));
+      ASSERT_EQ(sample.stress._buffer[i], static_cast<float>(shot.stress[particle]));
     }
     next += count;
   }
@@ -164,14 +179,14 @@ TEST(FrameMessage, QuantizedChunksShowTheirParticlesOfEveryField) {
 }
 
 TEST(FrameMessage, AQuantizedWorldOfOneParticleIsItsBounds) {
-  const Frame frame = make_frame(1, {.precision = StreamPrecision::quantized16});
+  const Shot shot = make_shot(1, {.precision = StreamPrecision::quantized16});
   FrameMessage message("rope");
-  message.assign(frame);
+  message.assign(shot.frame);
   const auto& sample = message.chunk(0);
   ASSERT_EQ(sample.positions16._length, 3u);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_EQ(sample.positions16._buffer[axis], 0u);
-    EXPECT_EQ(sample.bounds[axis], frame.positions[axis]);
+    EXPECT_EQ(sample.bounds[axis], shot.positions[axis]);
   }
 }
 

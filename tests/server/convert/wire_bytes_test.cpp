@@ -13,10 +13,9 @@ namespace {
 Frame make_frame(std::int64_t particles, const StreamFormat& format) {
   Frame frame;
   frame.header.format = format;
-  frame.positions = VecX::LinSpaced(3 * particles, 0.0, 1.0);
-  frame.velocities = frame.positions;
-  frame.stretch = VecX::Constant(particles, 0.5);
-  frame.stress = frame.stretch;
+  frame.particles = static_cast<std::uint32_t>(particles);
+  const VecX positions = VecX::LinSpaced(3 * particles, 0.0, 1.0), scalars = VecX::Constant(particles, 0.5);
+  fill_payload({positions, positions, scalars, scalars}, format, frame.payload);
   return frame;
 }
 
