@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <future>
 
-#include "core/base/parallel.h"
 #include "idl/wire/memory.h"
 #include "server/end_signals.h"
 #include "server/options.h"
@@ -74,7 +73,6 @@ int main(int argc, char** argv) {
   const Options& options = std::get<Options>(parsed);
   EndSignals signals;
   set_up_log();
-  set_thread_count(options.threads);
 
   auto started = start(options, signals);
   if (!started) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "core/base/parallel.h"
 #include "core/sim/frame_size.h"
 #include "server/name.h"
 #include "server/world_claim.h"
@@ -41,6 +42,7 @@ SceneLoader make_scene_loader(const std::string& first_scene, const wire::Qos& f
 }  // namespace
 
 Result<std::unique_ptr<Server>> Server::start(const Options& options) {
+  set_thread_count(options.threads);
   auto scene = load_scene(options.scene, options.overrides);
   if (!scene) return scene.error();
   for (const auto& note : scene.value().notes) spdlog::info("{}", note);
