@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <future>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "idl/wire/memory.h"
 #include "server/end_signals.h"
@@ -36,12 +39,14 @@ void set_up_log() {
 
 // On a thread of its own, so that signals are heard while a scene is loaded.
 Result<std::unique_ptr<Server>> start(const Options& options, EndSignals& signals) {
-  auto starting = std::async(std::launch::async, [&options] { return Server::start(options); });
+  std::optional<Result<std::unique_ptr<Server>>> started;
+  auto starting = std::async(std::launch::async, [&] { started = Server::start(options); });
   while (starting.wait_for(20ms) != std::future_status::ready) {
     signals.wait(0ms);
     if (signals.impatient()) leave("the start had not ended " + signals.reason() + " and was cut off");
   }
-  return starting.get();
+  starting.get();
+  return std::move(*started);
 }
 
 void wait_for_end(const Server& server, EndSignals& signals, bool exit_at_end) {
