@@ -25,9 +25,10 @@ constexpr const char* example = R"(
 Example:
   flexcast-publish-bench --seconds 3 --repeats 3
 
-Rate: frames through mailbox and publisher as fast as they go, against the samples of ddsperf, in turns. Latency: from
-the end of a step to a subscriber, against a writer and a reader alone, in turns. Cost: CPU time of the publisher's
-thread, against a writer alone, in turns. Medians of the repeats; ratios of neighbours in time.)";
+Rate: frames through mailbox and publisher as fast as they go, against the samples of ddsperf, in turns; either's
+subscriber takes in Cyclone's receive thread. Latency: from the end of a step to a subscriber with a thread of its own,
+against a writer and a reader alone, in turns. Cost: CPU time of capturing and writing a frame, against a writer alone,
+in turns. Medians of the repeats; ratios of neighbours in time.)";
 
 struct Size {
   int kilobytes = 0;
