@@ -18,7 +18,7 @@ using wire::text;
 using Row = std::vector<std::string>;
 
 // Columns aligned to the left, two spaces between them, none at the end of a line.
-std::string xconst std::vector<Row>& rows) {
+std::string format_rows(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
@@ -69,7 +69,7 @@ std::string worlds_table(std::span<const flexcast_Status* const> statuses) {
   for (const flexcast_Status* s : statuses)
     rows.push_back({std::string(text(s->world)), std::string(name_of(s->state)), std::to_string(s->report.step),
                     fmt::format("{:.6g} s", s->report.time), rate_text(s->rate), std::string(text(s->version))});
-  return xrows);
+  return format_rows(rows);
 }
 
 std::string descriptors_table(const client::Reply& reply) {
@@ -79,13 +79,13 @@ std::string descriptors_table(const client::Reply& reply) {
     rows.push_back(
         {d.name, unquoted(value ? *value : d.initial), d.unit, range_text(d), d.live ? "yes" : "no", d.description});
   }
-  return xrows);
+  return format_rows(rows);
 }
 
 std::string values_table(std::span<const client::Parameter> values) {
   std::vector<Row> rows;
   for (const auto& [name, value] : values) rows.push_back({name, unquoted(value)});
-  return xrows);
+  return format_rows(rows);
 }
 
 std::string outcome_line(const client::Reply& reply) {
@@ -120,7 +120,7 @@ std::string status_text(const flexcast_Status& s, std::string_view health) {
     rows.push_back({fmt::format("handle {}", text(h.name)),
                     fmt::format("{} N, {} N.m", vector_text(h.force), vector_text(h.torque))});
   for (const std::string& warning : wire::strings(s.warnings)) rows.push_back({"warning", warning});
-  return xrows);
+  return format_rows(rows);
 }
 
 std::string status_line(const flexcast_Status& s) {

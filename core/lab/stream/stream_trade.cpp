@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/lab/bench/bench_timing.h"
+#include "core/lab/output_file.h"
 #include "core/lab/progress.h"
 #include "core/lab/run_length.h"
 #include "core/lab/stream/frame_preparation.h"
