@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "core/base/parallel.h"
-#include "idl/wire/memory.h"
 #include "server/options.h"
 #include "server/progress_line.h"
 #include "server/server.h"
@@ -51,7 +50,6 @@ void wait_for_end(const Server& server, const sigset_t& signals, bool exit_at_en
 }  // namespace
 
 int main(int argc, char** argv) {
-  wire::keep_freed_memory();
   const auto parsed = parse_options(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Options& options = std::get<Options>(parsed);
