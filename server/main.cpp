@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "idl/wire/memory.h"
 #include "server/end_signals.h"
 #include "server/options.h"
 #include "server/progress_line.h"
@@ -72,7 +71,6 @@ void stop(Server& server, EndSignals& signals) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  wire::keep_freed_memory();
   const auto parsed = parse_options(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const Options& options = std::get<Options>(parsed);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "idl/wire/fill.h"
+#include "idl/wire/memory.h"
 #include "server/convert/events.h"
 #include "server/convert/parameters.h"
 #include "server/convert/scene_info.h"
@@ -14,6 +15,7 @@ namespace flexcast::server {
 
 wire::Result<Publications> Publications::create(const wire::Participant& participant, std::string world,
                                                 std::uint64_t server_id, const wire::Qos& frames_qos) {
+  wire::keep_freed_memory();
   auto scene = wire::Writer<flexcast_SceneInfo>::create(participant);
   if (!scene) return scene.error();
   auto topology = wire::Writer<flexcast_Topology>::create(participant);

@@ -17,7 +17,8 @@ namespace flexcast::server {
 
 class Publications {
  public:
-  // `frames`: decides how many of them the writer keeps for readers that lag.
+  // From now on this process keeps the memory that it frees: see wire/memory.h. `frames`: decides how many of them the
+  // writer keeps for readers that lag.
   static wire::Result<Publications> create(const wire::Participant& participant, std::string world,
                                            std::uint64_t server_id, const wire::Qos& frames);
 
@@ -26,7 +27,7 @@ class Publications {
 
   void publish(const Notice& notice);
   void publish(const WorldStatus& status, const DeliveryStatus& delivery);
-  // Not converted at all when nobody reads. Returns whether it was written to somebody, as a whole.
+  // Nothing is done when nobody reads. Returns whether it was written to somebody, as a whole.
   bool publish(const Frame& frame);
 
   wire::Matched frame_readers() const { return writers_.frames.matched(); }
