@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   set_up_log();
   set_thread_count(options.threads);
 
+  spdlog::info("loading {}", options.scene);
   auto started = start(options, signals);
   if (!started) {
     spdlog::error("{}", started.error().message);
