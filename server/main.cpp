@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   EndSignals signals;
   set_up_log();
 
+  spdlog::info("loading {}", options.scene);
   auto started = start(options, signals);
   if (!started) {
     spdlog::error("{}", started.error().message);

@@ -134,6 +134,7 @@ TEST_F(HangSystem, ALoadThatNeverEndsIsCutOffAsWell) {
 TEST_F(HangSystem, AStartThatNeverEndsIsCutOffAsWell) {
   ASSERT_EQ(mkfifo(path("endless.toml").c_str(), 0600), 0);
   const auto server = start("flexcast-server", {path("endless.toml").string(), "--domain", std::to_string(domain())});
+  ASSERT_TRUE(server->wait_for_line("loading", patience));
   server->send(SIGTERM);
   ASSERT_TRUE(server->wait_for_line("ending on SIGTERM", patience));
   server->send(SIGTERM);

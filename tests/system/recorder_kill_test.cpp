@@ -62,7 +62,7 @@ TEST_F(RecorderKill, AtAnyMomentLeavesARecordingThatCanBeCompletedWithEveryWhole
 TEST_F(RecorderKill, WhilePausedLeavesAFileThatKnowsOfThePause) {
   const auto server = start_server(write_file("pair.toml", pair_scene()), {"--rate", "0.5"});
   const auto recorder = start_waiting_recorder("run.mcap", {"--paused"});
-  ASSERT_TRUE(recorder->wait_for_line("recording:", patience));
+  ASSERT_TRUE(recorder->wait_for_line("paused:", patience));
   for (const client::Deadline deadline(patience); !deadline.passed();) {
     std::filesystem::copy_file(path("run.mcap"), path("copy.mcap"), std::filesystem::copy_options::overwrite_existing);
     const Ended now = run("flexcast-record", {"--recover", path("copy.mcap").string(), "--json"});
