@@ -6,7 +6,6 @@
 namespace flexcast::ctl {
 namespace {
 
-using client::to_json;
 using wire::elements;
 using wire::name_of;
 
@@ -14,7 +13,7 @@ std::string string_of(const char* string) {
   return std::string(wire::text(string));
 }
 
-Json to_json(const client::Descriptor& d) {
+Json descriptor_json(const client::Descriptor& d) {
   return {{"name", d.name},
           {"kind", name_of(d.kind)},
           {"unit", d.unit},
@@ -28,7 +27,7 @@ Json to_json(const client::Descriptor& d) {
           {"description", d.description}};
 }
 
-Json to_json(const flexcast_Failure& f) {
+Json failure_json(const flexcast_Failure& f) {
   return {{"cause", string_of(f.cause)},
           {"body", string_of(f.body)},
           {"element", f.element},
@@ -54,7 +53,7 @@ Json to_json(const client::Reply& reply, const std::string& world) {
   for (const auto& [name, value] : reply.values) json["values"][name] = to_json(value);
   if (reply.kind == flexcast_COMMAND_DESCRIBE) {
     json["descriptors"] = Json::array();
-    for (const auto& descriptor : reply.descriptors) json["descriptors"].push_back(to_json(descriptor));
+    for (const auto& descriptor : reply.descriptors) json["descriptors"].push_back(descriptor_json(descriptor));
   }
   if (reply.kind == flexcast_COMMAND_STEP || reply.kind == flexcast_COMMAND_STATUS)
     json["report"] = to_json(reply.report);
@@ -81,7 +80,7 @@ Json to_json(const flexcast_Status& s) {
             {"server_id", s.server_id},
             {"version", string_of(s.version)},
             {"report", to_json(s.report)}};
-  if (s.state == flexcast_WORLD_FAILED) json["failure"] = to_json(s.trouble);
+  if (s.state == flexcast_WORLD_FAILED) json["failure"] = failure_json(s.trouble);
   json["probes"] = json["handles"] = Json::object();
   for (const auto& p : elements(s.probes))
     json["probes"][string_of(p.name)] = {{"position", p.position}, {"velocity", p.velocity}};
