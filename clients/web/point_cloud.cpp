@@ -62,13 +62,13 @@ class CdrWriter {
   std::vector<std::byte> bytes_{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
 };
 
-struct Field {
+struct CloudField {
   std::string_view name;
   std::function<double(std::size_t)> value;  // of a particle
 };
 
-std::vector<Field> choose_fields(const client::Frame& frame) {
-  std::vector<Field> fields;
+std::vector<CloudField> choose_fields(const client::Frame& frame) {
+  std::vector<CloudField> fields;
   for (const auto& [name, axis] : {std::pair("x", 0u), std::pair("y", 1u), std::pair("z", 2u)})
     fields.push_back({name, [&frame, a = axis](std::size_t i) { return frame.positions[3 * i + a]; }});
   if (!frame.velocities.empty()) {
@@ -89,7 +89,7 @@ std::string_view point_cloud_idl() {
 }
 
 std::vector<std::byte> make_point_cloud(const client::Frame& frame, std::int64_t time) {
-  const std::vector<Field> fields = choose_fields(frame);
+  const std::vector<CloudField> fields = choose_fields(frame);
   const std::size_t particles = frame.positions.size() / 3;
   CdrWriter cdr;
   cdr.put(static_cast<std::uint32_t>(time / second));
@@ -99,7 +99,7 @@ std::vector<std::byte> make_point_cloud(const client::Frame& frame, std::int64_t
   cdr.put(static_cast<std::uint32_t>(fields.size() * sizeof(float)));
   cdr.put(static_cast<std::uint32_t>(fields.size()));
   std::uint32_t offset = 0;
-  for (const Field& field : fields) {
+  for (const CloudField& field : fields) {
     cdr.put_string(field.name);
     cdr.put(offset);
     cdr.put(float32);
@@ -107,7 +107,7 @@ std::vector<std::byte> make_point_cloud(const client::Frame& frame, std::int64_t
   }
   std::byte* to = cdr.put_room(particles * fields.size() * sizeof(float));
   for (std::size_t i = 0; i < particles; ++i) {
-    for (const Field& field : fields) {
+    for (const CloudField& field : fields) {
       const auto value = static_cast<float>(field.value(i));
       std::memcpy(to, &value, sizeof value);
       to += sizeof value;
