@@ -12,7 +12,7 @@ namespace {
 using Assignments = std::vector<ParameterAssignment>;
 
 // Steps are a power of two, so that times that are added up are those that are multiplied.
-std::string scene_text(std::string_view integrator) {
+std::string live_scene_text(std::string_view integrator) {
   return concat("name = \"live\"\ngravity = [0, 0, -9.81]\n", time_table(integrator, 0x1p-10), R"(
 [[body]]
 name = "beam"
@@ -101,7 +101,7 @@ TEST(LiveParameters, AChangeEqualsAFreshStartWithTheNewValueToTheBit) {
   for (const char* scheme : tried_schemes) {
     for (const ParameterAssignment& change : all_changes()) {
       SCOPED_TRACE(std::string(scheme) + ": " + change.name + " = " + to_text(change.value));
-      const auto live = make(scene_text(scheme));
+      const auto live = make(live_scene_text(scheme));
       run(*live, 20);
       const auto set = live->set_parameters(Assignments{change});
       ASSERT_TRUE(set.ok()) << set.error().message;
@@ -116,9 +116,9 @@ TEST(LiveParameters, AChangeEqualsAFreshStartWithTheNewValueToTheBit) {
 
 // Changed on the way or given from the start, a value means the same.
 TEST(LiveParameters, AChangeBeforeTheFirstStepEqualsASceneWithThatValue) {
-  std::string text = scene_text("rk4");
+  std::string text = live_scene_text("rk4");
   text.replace(text.find("young = 2e4"), 11, "young = 3e4");
-  const auto scene = make(text), live = make(scene_text("rk4"));
+  const auto scene = make(text), live = make(live_scene_text("rk4"));
   ASSERT_TRUE(live->set_parameters(Assignments{{"beam.young", 3e4}}).ok());
   run(*scene, 20);
   run(*live, 20);
@@ -127,7 +127,7 @@ TEST(LiveParameters, AChangeBeforeTheFirstStepEqualsASceneWithThatValue) {
 
 TEST(LiveParameters, AChangeThatIsNoneChangesNothingButTheRevision) {
   for (const char* scheme : tried_schemes) {
-    const auto changed = make(scene_text(scheme)), plain = make(scene_text(scheme));
+    const auto changed = make(live_scene_text(scheme)), plain = make(live_scene_text(scheme));
     run(*changed, 20);
     run(*plain, 20);
     for (const ParameterDescriptor& descriptor : changed->parameters()) {
@@ -144,7 +144,7 @@ TEST(LiveParameters, AChangeThatIsNoneChangesNothingButTheRevision) {
 
 // A row without a change above is a row without a test.
 TEST(LiveParameters, EveryLiveRowIsAmongTheChanges) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   for (const ParameterRow& row : parameter_rows()) {
     const bool tested = std::ranges::any_of(all_changes(), [&](const ParameterAssignment& change) {
       const ParameterDescriptor* descriptor = simulation->find_parameter(change.name);
@@ -155,7 +155,7 @@ TEST(LiveParameters, EveryLiveRowIsAmongTheChanges) {
 }
 
 TEST(LiveParameters, RowsFixedAtTheStartAreReadAndNotSet) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   const Assignments values = {{"stream.precision", "float32"}, {"beam.element", "tet4"}};
   for (const ParameterAssignment& assignment : values) {
     const ParameterDescriptor* descriptor = simulation->find_parameter(assignment.name);
@@ -170,7 +170,7 @@ TEST(LiveParameters, RowsFixedAtTheStartAreReadAndNotSet) {
 }
 
 TEST(LiveParameters, ObstaclesHaveThoseOfTheirShape) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   for (const char* name :
        {"contact.ground.normal", "contact.ball.radius", "contact.crate.lo", "contact.crate.friction"})
     EXPECT_NE(simulation->find_parameter(name), nullptr) << name;
@@ -179,7 +179,7 @@ TEST(LiveParameters, ObstaclesHaveThoseOfTheirShape) {
 }
 
 TEST(LiveParameters, TogetherMustMakeAModel) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   run(*simulation, 5);
   const std::uint64_t hash = simulation->calc_state_hash();
   const std::pair<Assignments, std::string> bad[] = {
@@ -209,7 +209,7 @@ TEST(LiveParameters, TogetherMustMakeAModel) {
 }
 
 TEST(LiveParameters, EveryRowIsReadableAndSettableByName) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   EXPECT_EQ(simulation->parameter_revision(), 1u);
   for (const ParameterAssignment& change : all_changes()) {
     const ParameterDescriptor* descriptor = simulation->find_parameter(change.name);
@@ -224,7 +224,7 @@ TEST(LiveParameters, EveryRowIsReadableAndSettableByName) {
 }
 
 TEST(LiveParameters, ABatchIsAllOrNothing) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   run(*simulation, 5);
   std::vector<ParameterValue> before;
   for (const ParameterDescriptor& descriptor : simulation->parameters())
@@ -250,7 +250,7 @@ TEST(LiveParameters, ABatchIsAllOrNothing) {
 }
 
 TEST(LiveParameters, ErrorsNameTheValueAndWhatIsAllowed) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   const auto poisson = simulation->set_parameters(Assignments{{"beam.poisson", 0.625}});
   ASSERT_FALSE(poisson.ok());
   EXPECT_NE(poisson.error().message.find("0.625"), std::string::npos) << poisson.error().message;
@@ -262,7 +262,7 @@ TEST(LiveParameters, ErrorsNameTheValueAndWhatIsAllowed) {
 }
 
 TEST(LiveParameters, WholeNumbersAndNumbersStandInForEachOther) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   ASSERT_TRUE(
       simulation->set_parameters(Assignments{{"beam.young", std::int64_t{30000}}, {"time.substeps", 4.0}}).ok());
   EXPECT_EQ(simulation->model().bodies[0].young, 3e4);
@@ -270,7 +270,7 @@ TEST(LiveParameters, WholeNumbersAndNumbersStandInForEachOther) {
 }
 
 TEST(LiveParameters, DensityKeepsMassOverrides) {
-  const auto simulation = make(scene_text("symplectic_euler"));
+  const auto simulation = make(live_scene_text("symplectic_euler"));
   const double before = simulation->model().masses[1];
   ASSERT_TRUE(simulation->set_parameters(Assignments{{"beam.density", 1000.0}}).ok());
   EXPECT_DOUBLE_EQ(simulation->model().masses[1], 2.0 * before);
