@@ -111,8 +111,11 @@ TEST_F(CtlSystem, OfTwoSetsThatRaceForARevisionExactlyOneWins) {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto code = racers[i]->wait(patience);
       ASSERT_TRUE(code == 0 || code == 1) << racers[i]->err();
-      if (code == 0) won.push_back(wanted[i]);
-      if (code == 1) EXPECT_NE(racers[i]->err().find("is in force, not " + revision), std::string::npos);
+      if (code == 0) {
+        won.push_back(wanted[i]);
+      } else {
+        EXPECT_NE(racers[i]->err().find("is in force, not " + revision), std::string::npos);
+      }
     }
     ASSERT_EQ(won.size(), 1U) << "round " << round;
     EXPECT_EQ(ctl_json({"get", "rope.stiffness"})["values"]["rope.stiffness"], std::stod(won[0]));
@@ -131,7 +134,9 @@ TEST_F(CtlSystem, TheDoctorIsContentWithAServerThatIsWellAlsoAfterASecondOfItsNa
   const auto scene = write_file("pair.toml", pair_scene());
   const auto server = start_server(scene);
   for (const bool second : {false, true}) {
-    if (second) EXPECT_EQ(run("flexcast-server", {scene.string(), "--domain", std::to_string(domain())}).code, 1);
+    if (second) {
+      EXPECT_EQ(run("flexcast-server", {scene.string(), "--domain", std::to_string(domain())}).code, 1);
+    }
     const Ended ended = ctl({"--wait", "1", "doctor", "--json"});
     EXPECT_EQ(ended.code, 0) << ended.out;
     EXPECT_EQ(Json::parse(ended.out)["healthy"], true) << ended.out;

@@ -23,7 +23,7 @@ wire::Result<client::Request> parse(std::string_view verb, const std::string& js
   });
 }
 
-std::string error_of(std::string_view verb, const std::string& json) {
+std::string refusal_of(std::string_view verb, const std::string& json) {
   const auto request = parse(verb, json);
   return request ? "" : request.error().message;
 }
@@ -55,16 +55,16 @@ TEST(Services, FieldsReachTheCommand) {
 }
 
 TEST(Services, AMalformedRequestNamesFieldValueAndWhatIsAllowed) {
-  EXPECT_EQ(error_of("step", R"({"count":"x"})"), "step: 'count' must be a whole number from 1 on, not \"x\"");
-  EXPECT_EQ(error_of("step", R"({"count":0})"), "step: 'count' must be a whole number from 1 on, not 0");
-  EXPECT_EQ(error_of("step", R"({"counts":1})"), "step: there is no field 'counts': it takes count");
-  EXPECT_EQ(error_of("pause", R"({"a":1})"), "pause: there is no field 'a': it takes none");
-  EXPECT_EQ(error_of("grab", R"({"particle":1})"), "grab: 'target' is missing: an array of three numbers");
-  EXPECT_EQ(error_of("release", R"({"particle":4294967296})"),
+  EXPECT_EQ(refusal_of("step", R"({"count":"x"})"), "step: 'count' must be a whole number from 1 on, not \"x\"");
+  EXPECT_EQ(refusal_of("step", R"({"count":0})"), "step: 'count' must be a whole number from 1 on, not 0");
+  EXPECT_EQ(refusal_of("step", R"({"counts":1})"), "step: there is no field 'counts': it takes count");
+  EXPECT_EQ(refusal_of("pause", R"({"a":1})"), "pause: there is no field 'a': it takes none");
+  EXPECT_EQ(refusal_of("grab", R"({"particle":1})"), "grab: 'target' is missing: an array of three numbers");
+  EXPECT_EQ(refusal_of("release", R"({"particle":4294967296})"),
             "release: 'particle' must be a whole number from 0 to 4294967295, not 4294967296");
-  EXPECT_EQ(error_of("set", R"({"values":{"young":{}}})"),
+  EXPECT_EQ(refusal_of("set", R"({"values":{"young":{}}})"),
             "set: young: a value is a number, a text, true, false or an array of three numbers, not {}");
-  EXPECT_EQ(error_of("load", "[]"), "load: a request must be a JSON object");
+  EXPECT_EQ(refusal_of("load", "[]"), "load: a request must be a JSON object");
 }
 
 TEST(Services, TextIsReadAsTheKindOfItsParameter) {
