@@ -4,7 +4,7 @@
 namespace flexcast::test {
 namespace {
 
-constexpr std::int32_t handled_cloth = 12;  // the first particle of the handled_cloth: 3 x 3 nodes, 0.5 m apart
+constexpr std::int32_t first_of_cloth = 12;  // the first particle of the cloth: 3 x 3 nodes, 0.5 m apart
 
 std::string with_handles(const std::string& entries, const std::string& more = "") {
   return with_spring_lines("handle = [ " + entries + " ]\n" + more);
@@ -17,7 +17,7 @@ std::vector<Handle> handles(const std::string& entries, const std::string& more 
 // The message behind file, line and body.
 std::string handle_refusal(const std::string& entries, const std::string& more = "") {
   const std::string message = refusal(with_handles(entries, more));
-  const std::string start = "test.toml:16: [[body]] \"handled_cloth\": ";
+  const std::string start = "test.toml:16: [[body]] \"cloth\": ";
   return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
@@ -28,7 +28,7 @@ TEST(Handle, CarriesWhatItsEntrySays) {
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].name, "grip");
   EXPECT_EQ(all[0].body, 1);
-  EXPECT_EQ(all[0].particles, (std::vector<std::int32_t>{handled_cloth + 2, handled_cloth + 5}));
+  EXPECT_EQ(all[0].particles, (std::vector<std::int32_t>{first_of_cloth + 2, first_of_cloth + 5}));
   EXPECT_EQ(all[0].translate, Vec3(0, 0, 1));
   EXPECT_EQ(all[0].rotate, Vec3(3, 0, 0));
   EXPECT_EQ(all[0].about, Vec3(1, 2, 3));
@@ -57,8 +57,8 @@ TEST(Handle, StartsAtRestPlusDisplacementAndTurnsAboutTheRestCentroid) {
 TEST(Handle, PrescribesTheVelocityOfItsParticles) {
   const Scene scene = loaded(with_handles("{ name = \"grip\", select = { nodes = [2] } }",
                                           "velocity = [ { select = { all = true }, value = [1.0, 2.0, 3.0] } ]\n"));
-  EXPECT_EQ(Vec3(block3(scene.simulation->state().velocities, handled_cloth + 2)), Vec3(0, 0, 0));
-  EXPECT_EQ(Vec3(block3(scene.simulation->state().velocities, handled_cloth + 3)), Vec3(1, 2, 3));
+  EXPECT_EQ(Vec3(block3(scene.simulation->state().velocities, first_of_cloth + 2)), Vec3(0, 0, 0));
+  EXPECT_EQ(Vec3(block3(scene.simulation->state().velocities, first_of_cloth + 3)), Vec3(1, 2, 3));
 }
 
 TEST(Handle, ParticleMayHaveOnlyOne) {
@@ -78,10 +78,10 @@ TEST(Handle, NamesDifferInTheWholeScene) {
   const std::string twice = "{ name = \"a\", select = { nodes = [2] } }, { name = \"a\", select = { nodes = [3] } }";
   EXPECT_EQ(handle_refusal(twice), "handle[1].name = \"a\" is there twice; the handles of a scene must differ in name");
   const std::string entry = "handle = [ { name = \"a\", select = { nodes = [2] } } ]\n";
-  EXPECT_EQ(refusal(changed("model = \"fem\"\n", "model = \"fem\"\n" + entry, with_spring_lines(entry))),
-            "test.toml:17: [[body]] \"handled_cloth\": handle[0].name = \"a\" is there twice; the handles of a scene "
-            "must differ "
-            "in name");
+  EXPECT_EQ(
+      refusal(changed("model = \"fem\"\n", "model = \"fem\"\n" + entry, with_spring_lines(entry))),
+      "test.toml:17: [[body]] \"cloth\": handle[0].name = \"a\" is there twice; the handles of a scene must differ "
+      "in name");
 }
 
 TEST(Handle, RefusesWhatItsKeysDoNotAllow) {
@@ -114,10 +114,9 @@ TEST(Handle, WithoutAFiniteCentroidNeedsAPoint) {
   const std::string far = "origin = [1.7e308, 0.0, 0.0]\n";
   const std::string mesh = "size = [1e300, 1e300]";
   const std::string text = with_handles("{ name = \"a\", select = { all = true } }", far);
-  EXPECT_EQ(
-      refusal(changed("size = [1.0, 1.0]", mesh, text)),
-      "test.toml:16: [[body]] \"handled_cloth\": handle[0].select selects particles whose centroid is not finite; give "
-      "about");
+  EXPECT_EQ(refusal(changed("size = [1.0, 1.0]", mesh, text)),
+            "test.toml:16: [[body]] \"cloth\": handle[0].select selects particles whose centroid is not finite; give "
+            "about");
 }
 
 }  // namespace

@@ -22,15 +22,15 @@ using Json = nlohmann::json;
 using enum StreamPrecision;
 
 constexpr const char* beam_scene = R"(
-name = "beam_scene"
+name = "beam"
 gravity = [0, 0, -9.81]
 [time]
 step = 0.002
 integrator = "backward_euler"
 [[body]]
-name = "beam_scene"
+name = "beam"
 model = "fem"
-mesh = { shape = "beam_scene", cells = [4, 1, 1], size = [1.0, 0.2, 0.2] }
+mesh = { shape = "beam", cells = [4, 1, 1], size = [1.0, 0.2, 0.2] }
 material = { law = "corotational", young = 1e5, poisson = 0.3, density = 1000.0 }
 pin = [ { select = { box = [[-1e-9, -1, -1], [1e-9, 1, 1]] } } ]
 )";
