@@ -13,7 +13,8 @@ Result<std::int64_t> calc_run_length(std::optional<double> until, const TimeSett
   const double steps = std::round(*end / time.step);
   if (steps > most_steps) {
     char text[160];
-    std::snprintf(text, sizeof text, "%g s is too long (allowed: at most 1e15 steps of time.step = %g s)", *end,
+    std::snprintf(text, sizeof text,
+                  "--until or time.duration: %g s is too long (allowed: at most 1e15 steps of time.step = %g s)", *end,
                   time.step);
     return Error{text};
   }

@@ -6,11 +6,11 @@
 namespace flexcast {
 namespace {
 
-constexpr std::string_view white_space = " \t\r\n";
+constexpr std::string_view xml_space = " \t\r\n";
 
-std::string_view take_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(white_space), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(white_space));
+std::string_view take_value(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(xml_space), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(xml_space));
   text.remove_prefix(word.size());
   return word;
 }
@@ -53,7 +53,7 @@ Result<void> VtuDocument::find_appended(std::string& xml) {
   const std::size_t start = file_.bytes.find("<AppendedData");
   if (start == std::string::npos) return {};
   const std::size_t end = file_.bytes.find('>', start);
-  const std::size_t mark = end == std::string::npos ? end : file_.bytes.find_first_not_of(white_space, end + 1);
+  const std::size_t mark = end == std::string::npos ? end : file_.bytes.find_first_not_of(xml_space, end + 1);
   if (mark == std::string::npos || file_.bytes[mark] != '_') {
     return Error{file_.name + ", byte " + std::to_string(start) + ": <AppendedData> does not begin with '_'"};
   }
@@ -128,7 +128,7 @@ template <class T, class Parse>
 Result<std::vector<T>> VtuDocument::parse_text(pugi::xml_node array, std::int64_t count, Parse parse_word) const {
   std::string_view text = array.child_value();
   std::vector<T> values;
-  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
+  for (std::string_view word = take_value(text); !word.empty(); word = take_value(text)) {
     const std::optional<T> value = parse_word(word);
     if (!value) {
       return error_at(array, "found " + quoted(word) + " as value " + std::to_string(values.size()) + " of the array " +

@@ -7,7 +7,7 @@ namespace flexcast::test {
 namespace {
 
 // Uses most keys; meshes are tiny, so that a mutated count stays small.
-const std::string valid_scene = R"(name = "rich"
+const std::string every_kind_scene = R"(name = "rich"
 description = "much"
 gravity = [0, 0, -9.81]
 [time]
@@ -84,7 +84,7 @@ void expect_scene_or_sentence(const std::string& text, const std::vector<std::st
 }
 
 TEST(SceneReader, AcceptsTheSceneThatIsMutated) {
-  loaded(valid_scene);
+  loaded(every_kind_scene);
 }
 
 TEST(SceneReader, SurvivesMutatedBytes) {
@@ -92,7 +92,7 @@ TEST(SceneReader, SurvivesMutatedBytes) {
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   const std::string letters = "0-.e\"[]{}=,\n #_naif\\'\t\x01\xff\xc3";
   for (int round = 0; round < 4000; ++round) {
-    std::string text = valid_scene;
+    std::string text = every_kind_scene;
     for (std::size_t change = 0, changes = 1 + below(3); change < changes; ++change) {
       const std::size_t at = below(text.size());
       switch (below(5)) {
@@ -122,11 +122,11 @@ TEST(SceneReader, SurvivesEveryTokenReplacedByAnother) {
   const std::string tokens[] = {
       "nan",  "inf",  "-inf", "1e308", "-1e308", "1e-320",     "0",        "-1", "9223372036854775807",
       "\"\"", "true", "[]",   "{}",    "[[]]",   "1979-05-27", "[1, 2, 3]"};
-  for (std::size_t equals = valid_scene.find("= "); equals != std::string::npos;
-       equals = valid_scene.find("= ", equals + 1)) {
-    const std::size_t end = valid_scene.find_first_of(",}]\n", equals);
+  for (std::size_t equals = every_kind_scene.find("= "); equals != std::string::npos;
+       equals = every_kind_scene.find("= ", equals + 1)) {
+    const std::size_t end = every_kind_scene.find_first_of(",}]\n", equals);
     for (const std::string& token : tokens) {
-      expect_scene_or_sentence(valid_scene.substr(0, equals + 2) + token + valid_scene.substr(end));
+      expect_scene_or_sentence(every_kind_scene.substr(0, equals + 2) + token + every_kind_scene.substr(end));
     }
   }
 }
@@ -145,7 +145,7 @@ TEST(SceneReader, SurvivesAnyOverride) {
   for (int round = 0; round < 2000; ++round) {
     std::string assignment = round % 2 ? "beam.young=" : "";
     for (int i = 0; i < 12; ++i) assignment += letters[random() % letters.size()];
-    expect_scene_or_sentence(valid_scene, {assignment});
+    expect_scene_or_sentence(every_kind_scene, {assignment});
   }
 }
 

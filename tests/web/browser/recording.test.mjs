@@ -32,6 +32,8 @@ const seconds = () => page.evaluate(() => window.flexcast.player.seconds);
 for (const compression of ["lz4", "zstd"]) {
   test(`a recording packed with ${compression} plays to its end`, async () => {
     await dropFile(page, programs.path(`${compression}.mcap`));
+    // Not the one before, which may still be shown.
+    await page.waitForFunction((name) => window.flexcast.player?.recording.name === name, `${compression}.mcap`);
     await waitForState(page, "recorded, running");
     await page.selectOption("#speed", "0.1");
     await page.getByLabel("Time line").fill("0");
