@@ -25,7 +25,7 @@ launcher=()
 make_fuzzers() {
   cmake --build "$engine" --target flexcast_core &&
     cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$(realpath "$engine")" -DFLEXCAST_WEB=OFF -DCMAKE_C_COMPILER=clang \
-      -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=ON "${launcher[@]}" &&
+      -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" &&
     cmake --build "$build" --target "${names[@]/#/fuzz_}"
 }
 mkdir -p "$build"
