@@ -105,6 +105,8 @@ TEST_F(HangSystem, AStepThatNeverEndsIsCutOffAfterSigtermAndTheServerSaysGoodbye
 TEST_F(HangSystem, ASecondSignalCutsOffAtOnce) {
   const auto server = start_hanging_server();
   const auto statuses = read_statuses();
+  // Who has just come may not know the server yet when it says goodbye.
+  watch(statuses, [](const flexcast_Status&, const wire::SampleInfo& info) { return info.valid; });
   server->send(SIGINT);
   ASSERT_TRUE(server->wait_for_line("ending on SIGINT", patience));
   server->send(SIGINT);
