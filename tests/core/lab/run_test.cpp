@@ -122,7 +122,9 @@ TEST_F(LabRun, EndsWithTheDurationOrAfterAThousandSteps) {
 TEST_F(LabRun, RefusesAnEndThatNeverComes) {
   options_.until = 1e300;
   EXPECT_EQ(run(), 1);
-  EXPECT_EQ(log_.str(), "flexcast-lab: 1e+300 s is too long (allowed: at most 1e15 steps of time.step = 0.001 s)\n");
+  EXPECT_EQ(log_.str(),
+            "flexcast-lab: --until or time.duration: 1e+300 s is too long (allowed: at most 1e15 steps of time.step = "
+            "0.001 s)\n");
 }
 
 TEST_F(LabRun, WritesARowPerFrameStartingWithTheInitialState) {
