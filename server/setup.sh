@@ -32,7 +32,7 @@ install_packages() {
 }
 
 # build FOLDER CMAKE_OPTION...: configures and builds; shows the log only when something fails. Sources are compiled in
-# batches, which takes a third of the time when everything is new.
+# batches, which is faster when everything is new.
 build() {
   local folder=$1
   shift
