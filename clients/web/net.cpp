@@ -113,7 +113,7 @@ class Net::Implementation {
   void tick() {
     timer_.expires_after(tick_period);
     timer_.async_wait([this](ErrorCode error) {
-      if (error) return;
+      if (error || ended_) return;  // one that is due is not cancelled any more
       handlers_.tick();
       tick();
     });
@@ -121,6 +121,7 @@ class Net::Implementation {
 
   // What is left to do ends by itself, at the latest with the time for farewells.
   void end() {
+    ended_ = true;
     ErrorCode ignored;
     acceptor_.close(ignored);
     signals_.cancel(ignored);
@@ -133,6 +134,7 @@ class Net::Implementation {
   }
 
   NetHandlers handlers_;
+  bool ended_ = false;
   std::atomic<bool> wake_pending_ = false;
   asio::io_context context_{1};
   Tcp::acceptor acceptor_{context_};

@@ -47,7 +47,7 @@ class NetTest : public testing::Test {
   NetTest() {
     net_ = Net::listen({.port = 0}, {.respond = [this](const HttpRequest& request) { return site_.answer(request); },
                                      .connect = [this](Line& line) { return std::make_unique<Echo>(line, alive_); },
-                                     .woken = [this] { ++woken_; },
+                                     .woken = [this] { if (++woken_; on_woken_) on_woken_(); },
                                      .tick = [] {}})
                .value();
     thread_ = std::thread([this] { net_->run(); });
@@ -74,6 +74,7 @@ class NetTest : public testing::Test {
 
   Site site_{Gate("127.0.0.1", {}), assets(), [] { return false; }};
   std::atomic<int> alive_ = 0, woken_ = 0;
+  std::function<void()> on_woken_;
   std::unique_ptr<Net> net_;
   std::thread thread_;
 };
@@ -189,6 +190,17 @@ TEST_F(NetTest, AtItsEndItSaysGoodbye) {
   EXPECT_TRUE(client.receive());
   net_->stop();
   EXPECT_EQ(client.wait_for_close(), 1001);
+}
+
+TEST_F(NetTest, EndsAlsoWhenATickIsDueAtThatMoment) {
+  on_woken_ = [this] {
+    net_->stop();
+    std::this_thread::sleep_for(250ms);  // more than the time between two ticks
+  };
+  net_->wake();
+  thread_.join();
+  thread_ = std::thread([] {});
+  EXPECT_GT(woken_, 0);
 }
 
 TEST_F(NetTest, APortThatIsTakenIsSaid) {
