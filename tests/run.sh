@@ -16,11 +16,12 @@ for folder in tests/interop tests/web; do
   (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error)
 done
 
-# The test programs alone, without the reference cases and the lab's studies, which would take too long: tests of this
-# build take the name sanitized.PROGRAM below. GCC warns of uninitialised values in instrumented library code that are
-# none, so warnings are errors in the other build only.
+# The test programs and the fuzzers alone, without the reference cases and the lab's studies, which would take too long:
+# tests of the second build take the name sanitized.PROGRAM below. Clang is half as fast again as GCC at this, and a second
+# opinion; warnings are errors in the other build only.
 build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 \
-  -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF
+  -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_FUZZ=ON \
+  -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF
 build build-tests -DCMAKE_BUILD_TYPE=Release -DFLEXCAST_SANITIZED_BUILD="$PWD/build-sanitize"
 
 ctest --test-dir build-tests --output-on-failure --no-tests=error -j "$(nproc)"

@@ -231,17 +231,17 @@ void Tetrahedra<Shape>::add_damping_blocks(const VecX& x, const VecX& v, double 
                                            std::span<const std::int32_t> particles, std::span<Vec3> f,
                                            std::span<Mat3> K) const {
   if (!has_damping()) return;
-  const auto [law, lame, viscosity, small_strain] = element_law();
+  const ElementLaw law = element_law();
   std::array<Mat3, points> F, rate;
   for_incidences(particles, [&](std::size_t i, const Element& e, std::int32_t node) {
     e.calc_gradients(x, F);
     e.calc_gradients(v, rate);
     for (std::size_t q = 0; q < points; ++q) {
       const Vec3 g = e.calc_gradient(q, node);
-      f[i] -= e.weight * calc_kelvin_voigt_stress(viscosity, small_strain, F[q], rate[q]) * g;
+      f[i] -= e.weight * calc_kelvin_voigt_stress(law.viscosity, law.small_strain, F[q], rate[q]) * g;
       for (int k = 0; k < 3; ++k) {
         const Mat3 unit = Vec3::Unit(k) * g.transpose();  // the node moves along axis k, the others rest
-        K[i].col(k) += scale * e.weight * calc_kelvin_voigt_stress(viscosity, small_strain, F[q], unit) * g;
+        K[i].col(k) += scale * e.weight * calc_kelvin_voigt_stress(law.viscosity, law.small_strain, F[q], unit) * g;
       }
     }
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "core/base/aligned.h"
 #include "core/base/parallel.h"
@@ -181,24 +182,25 @@ class Vbd final : public Integrator {
   Vec3 find_step_with_friction(std::int32_t particle, const Vec3& free, const Vec3& f, const Mat3& K,
                                const Vec3& without) const {
     const auto& all = potential_.friction_points();  // those of a particle are neighbours
-    const auto [first, last] = std::equal_range(all.begin(), all.end(), FrictionPoint{particle},
-                                                [](const auto& a, const auto& b) { return a.particle < b.particle; });
+    const auto found = std::equal_range(all.begin(), all.end(), FrictionPoint{particle},
+                                        [](const auto& a, const auto& b) { return a.particle < b.particle; });
+    const std::span points(found.first, found.second);
     Vec3 d = Vec3::Zero();
-    if (first == last) return without;
+    if (points.empty()) return without;
     const Vec3 u = block3(u_, particle);
     const auto calc_value = [&](const Vec3& at) {
       double value = 0.5 * at.dot(K * at) - f.dot(at);
-      for (auto point = first; point != last; ++point) {
-        value += calc_friction_potential(*point, potential_.slip(), u + at).value;
+      for (const FrictionPoint& point : points) {
+        value += calc_friction_potential(point, potential_.slip(), u + at).value;
       }
       return value;
     };
     for (int iteration = 0; iteration < 20; ++iteration) {
       Vec3 gradient = K * d - f;
       Mat3 hessian = K;
-      for (auto point = first; point != last; ++point) {
-        gradient += free.cwiseProduct(calc_friction_potential(*point, potential_.slip(), u + d).gradient);
-        hessian += free.asDiagonal() * calc_friction_tangent(*point, potential_.slip(), u + d) * free.asDiagonal();
+      for (const FrictionPoint& point : points) {
+        gradient += free.cwiseProduct(calc_friction_potential(point, potential_.slip(), u + d).gradient);
+        hessian += free.asDiagonal() * calc_friction_tangent(point, potential_.slip(), u + d) * free.asDiagonal();
       }
       const Vec3 step = -hessian.ldlt().solve(gradient);
       const double value = calc_value(d);

@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(FLEXCAST_SANITIZED) || !defined(__GLIBC__)
 
 namespace flexcast::test {
 bool counts_allocations() {

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Builds the fuzzers with clang and runs each, or those that are named, for SECONDS (default 10) from its seeds in
-# tests/fuzz/corpus. Usage: tests/fuzz/run_fuzzers.sh [SECONDS] [NAME...]
+# Runs each fuzzer, or those that are named, for SECONDS (default 10) from its seeds in tests/fuzz/corpus.
+# Usage: tests/fuzz/run_fuzzers.sh [SECONDS] [NAME...]
 #
-# The engine comes from the build in build-tests, or in FLEXCAST_ENGINE_BUILD.
+# They come from the build with sanitizers of tests/run.sh, build-sanitize, or from FLEXCAST_SANITIZED_BUILD.
 # A crash, a leak, an input that takes ten seconds or more memory than granted ends with 1, and leaves the input in
-# build-fuzz/findings. "build-fuzz/bin/fuzz_NAME FILE" runs one input again.
+# findings of that build. "build-sanitize/bin/fuzz_NAME FILE" runs one input again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -12,24 +12,13 @@ seconds=${1:-10}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "run_fuzzers.sh: '$seconds' is not a number of seconds" >&2; exit 2; }
 names=("${@:2}")
 ((${#names[@]})) || names=(scene mesh mcap command value web)
-build=build-fuzz
+build=${FLEXCAST_SANITIZED_BUILD:-build-sanitize}
 memory_mib=2048
-command -v clang++ >/dev/null || { echo "run_fuzzers.sh: clang++ is missing: apt-get install clang" >&2; exit 1; }
-
-engine=${FLEXCAST_ENGINE_BUILD:-build-tests}
-[[ -e $engine/CMakeCache.txt ]] || { echo "run_fuzzers.sh: $engine is no build of flexcast: run tests/run.sh first, or" \
-  "name another one in FLEXCAST_ENGINE_BUILD" >&2; exit 1; }
-
-launcher=()
-! command -v ccache >/dev/null || launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-make_fuzzers() {
-  cmake --build "$engine" --target flexcast_core &&
-    cmake -S . -B "$build" -G Ninja -DFLEXCAST_FUZZ="$(realpath "$engine")" -DFLEXCAST_WEB=OFF -DCMAKE_C_COMPILER=clang \
-      -DCMAKE_CXX_COMPILER=clang++ "${launcher[@]}" &&
-    cmake --build "$build" --target "${names[@]/#/fuzz_}"
-}
-mkdir -p "$build"
-make_fuzzers >"$build/build.log" 2>&1 || { tail -50 "$build/build.log" >&2; exit 1; }
+grep -q '^FLEXCAST_FUZZ:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null ||
+  { echo "run_fuzzers.sh: $build is no build with fuzzers: run tests/run.sh first, or name another one in" \
+    "FLEXCAST_SANITIZED_BUILD" >&2; exit 1; }
+make_fuzzers() { cmake --build "$build" --target "${names[@]/#/fuzz_}"; }
+built=$(make_fuzzers 2>&1) || { tail -50 <<<"$built" >&2; exit 1; }
 
 mkdir -p "$build/findings"
 failed=0

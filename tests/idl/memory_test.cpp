@@ -34,7 +34,7 @@ long write_and_free_frames(int frames, std::size_t chunk_bytes) {
 }
 
 TEST(Memory, OfFramesThatWereSentServesTheNextOnesInEveryThread) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef FLEXCAST_SANITIZED
   GTEST_SKIP() << "the sanitizer's own allocator";
 #endif
   keep_freed_memory();

@@ -12,7 +12,7 @@ thread_local std::size_t allocations = 0;
 }
 
 // Counts what this thread allocates; the address sanitizer has its own operators.
-#ifndef __SANITIZE_ADDRESS__
+#ifndef FLEXCAST_SANITIZED
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

@@ -174,7 +174,7 @@ TEST_F(HubTest, FramesAreWantedWhileSomebodySubscribesAndAWhileLonger) {
   say({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", channel}}}}});
   EXPECT_TRUE(wanted_.frames);
   EXPECT_TRUE(wanted_.points.empty());
-  hub_.take({{}, {{"rope", make_frame(5)}}});
+  hub_.take(Delivery{{}, {{"rope", make_frame(5)}}});
   EXPECT_EQ(payloads(hear()), std::vector<std::string>{"5.0"});
   client_.reset();
   pass(1s);

@@ -82,7 +82,7 @@ void expect_figures(const Json& figures, const std::vector<std::string>& more) {
                                    "steps",
                                    "setup_seconds"};
   keys.insert(keys.end(), more.begin(), more.end());
-#ifndef __SANITIZE_ADDRESS__  // which has an allocator of its own
+#ifndef FLEXCAST_SANITIZED  // which has an allocator of its own
   keys.insert(keys.end(), {"bytes_per_element", "bytes_per_particle"});
 #endif
   for (const std::string& key : keys) {
