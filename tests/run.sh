@@ -17,8 +17,8 @@ for folder in tests/interop tests/web; do
 done
 
 # The test programs and the fuzzers alone, without the reference cases and the lab's studies, which would take too long:
-# tests of the second build take the name sanitized.PROGRAM below. Clang is half as fast again as GCC at this, and a second
-# opinion; warnings are errors in the other build only.
+# tests of this build take the name sanitized.PROGRAM below. The fuzzers need clang, which takes less time for this than GCC
+# and is a second opinion; warnings are errors in the other build only.
 build build-sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 \
   -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DFLEXCAST_SANITIZE=address,undefined -DFLEXCAST_FUZZ=ON \
   -DFLEXCAST_LONG_TESTS=OFF -DFLEXCAST_STUDIES=OFF -DFLEXCAST_WERROR=OFF

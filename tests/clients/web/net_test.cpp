@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -47,14 +48,18 @@ class NetTest : public testing::Test {
   NetTest() {
     net_ = Net::listen({.port = 0}, {.respond = [this](const HttpRequest& request) { return site_.answer(request); },
                                      .connect = [this](Line& line) { return std::make_unique<Echo>(line, alive_); },
-                                     .woken = [this] { if (++woken_; on_woken_) on_woken_(); },
+                                     .woken =
+                                         [this] {
+                                           ++woken_;
+                                           if (on_woken_) on_woken_();
+                                         },
                                      .tick = [] {}})
                .value();
     thread_ = std::thread([this] { net_->run(); });
   }
   ~NetTest() override {
     net_->stop();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
   SocketClient connect() const { return SocketClient(net_->port()); }
   SocketClient open() const {
@@ -198,8 +203,7 @@ TEST_F(NetTest, EndsAlsoWhenATickIsDueAtThatMoment) {
     std::this_thread::sleep_for(250ms);  // more than the time between two ticks
   };
   net_->wake();
-  thread_.join();
-  thread_ = std::thread([] {});
+  thread_.join();  // for ever, if it goes on ticking
   EXPECT_GT(woken_, 0);
 }
 
