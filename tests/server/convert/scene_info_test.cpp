@@ -58,7 +58,7 @@ TEST(SceneInfo, NamesBodiesWithTheirParticleRanges) {
 }
 
 TEST(Topology, ChunksCoverEveryElementExactlyOnceAndStayBelowOneMebibyte) {
-  const RunStarted run = start_run(beam_scene("[40, 20, 20]"));
+  const RunStarted run = start_run(beam_scene("[32, 18, 18]"));
   const Model& model = run.scene->simulation->model();
   const Body& body = model.bodies[1];
   const std::uint32_t chunks = count_topology_chunks(body);
